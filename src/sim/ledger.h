@@ -1,0 +1,49 @@
+#pragma once
+// Where the energy is and where it went (docs/physics.md, E1–E6), with both momenta.
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/vec.h"
+
+namespace tsubu::sim {
+
+/// All energies in joules. "Dissipated" and "work" count from the start of the run.
+struct Ledger {
+  double time = 0;
+
+  double kineticBulk = 0;         ///< ½ M V_G²
+  double kineticFluctuation = 0;  ///< Σ ½ m |v − V_G|²
+  double kineticRotation = 0;     ///< Σ ½ I ω²
+  double gravitational = 0;       ///< −Σ m g·x
+  double elasticNormal = 0;
+  double elasticTangential = 0;
+  double elasticRolling = 0;
+
+  double dissipatedNormal = 0;      ///< by normal dashpots
+  double dissipatedTangential = 0;  ///< by tangential dashpots
+  double dissipatedFriction = 0;    ///< by sliding, and springs that were let go at the end of a contact
+  double dissipatedRolling = 0;     ///< by rolling resistance
+
+  double workWalls = 0;   ///< done by moving walls on the grains
+  double inserted = 0;    ///< energy brought by grains that came in
+  double removed = 0;     ///< energy taken by grains that were taken out or lost
+
+  Vec3 momentum = Vec3::Zero();           ///< kg m/s
+  Vec3 angularMomentumBulk = Vec3::Zero();  ///< X_G × P about the origin, kg m²/s
+  Vec3 angularMomentumRest = Vec3::Zero();  ///< about the centre of mass, spin included
+
+  double initial = 0;  ///< total mechanical energy at the start
+
+  double kinetic() const { return kineticBulk + kineticFluctuation + kineticRotation; }
+  double elastic() const { return elasticNormal + elasticTangential + elasticRolling; }
+  double mechanical() const { return kinetic() + gravitational + elastic(); }
+  double dissipated() const { return dissipatedNormal + dissipatedTangential + dissipatedFriction + dissipatedRolling; }
+  /// What no account explains.
+  double residual() const { return mechanical() + dissipated() - initial - workWalls - inserted + removed; }
+  /// Energy that changed hands so far: the measure of the residual.
+  double turnover = 0;
+  double residualFraction() const { return turnover > 0 ? std::abs(residual()) / turnover : 0; }
+};
+
+}  // namespace tsubu::sim

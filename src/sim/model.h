@@ -1,0 +1,108 @@
+#pragma once
+// What a simulation consists of, in plain structs: no words, no files, no defaults of scenes. `scene::build` fills it.
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/vec.h"
+#include "sim/insertion/stream.h"
+#include "sim/properties.h"
+#include "sim/walls/motion.h"
+#include "sim/walls/surface.h"
+
+namespace tsubu::sim {
+
+/// Names of laws, as in laws/catalogue.h.
+struct ContactChoice {
+  std::string normal = "linear";
+  std::string tangential = "spring";
+  std::string rolling = "none";
+  bool tension = false;  ///< may the normal force pull at the end of a contact?
+
+  bool operator==(const ContactChoice&) const = default;
+};
+
+enum class Integrator { symplecticEuler, velocityVerlet };
+
+struct Material {
+  std::string name;
+  PropertyValues values;
+};
+
+/// Properties of pairs of materials, symmetric.
+class PairTable {
+ public:
+  explicit PairTable(std::size_t materials = 0) : materials_(materials), values_(materials * materials) {}
+  std::size_t materials() const { return materials_; }
+  const PropertyValues& at(std::size_t a, std::size_t b) const { return values_[a * materials_ + b]; }
+  void set(std::size_t a, std::size_t b, const PropertyValues& values) { values_[a * materials_ + b] = values_[b * materials_ + a] = values; }
+
+ private:
+  std::size_t materials_;
+  std::vector<PropertyValues> values_;
+};
+
+/// A wall: a shape (in its own frame), how it moves, and what it is made of.
+struct Wall {
+  std::string name;
+  std::variant<Plane, std::shared_ptr<const Surface>> shape;
+  WallMotion motion;
+  std::uint16_t material = 0;
+};
+
+/// Grains whose centre enters the region are taken out and counted as removed.
+struct Sink {
+  std::string name;
+  Region region;
+};
+
+/// Counts the grains whose centre crosses the plane along `normal` (minus those that cross against it), within `radius` of `point`.
+struct Counter {
+  std::string name;
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::UnitZ();
+  double radius = std::numeric_limits<double>::infinity();
+};
+
+/// What to do with a grain that overlaps too deeply or moves too far in a step.
+struct Watch {
+  double overlapLimit = 0.1;  ///< of the smaller radius
+  double travelLimit = 0.1;   ///< of the radius, per step
+  bool stop = true;           ///< otherwise warn once for each kind and go on
+};
+
+struct Model {
+  std::vector<Material> materials;
+  PairTable pairs;
+  ContactChoice contact;
+  Integrator integrator = Integrator::velocityVerlet;
+  Vec3 gravity = Vec3::Zero();
+  std::vector<Grain> grains;
+  std::vector<Stream> streams;
+  std::vector<Wall> walls;
+  std::vector<Sink> sinks;
+  std::vector<Counter> counters;
+  Box domain;                            ///< grains whose centre leaves it are lost; empty: a box around all that is there, with a wide margin
+  double timeStep = 0;                   ///< s; chosen by chooseTimeStep(), or by the user
+  double skin = 0;                       ///< m, reach of the outer neighbour list beyond contact; 0: chosen from the radii
+  bool ledger = true;                    ///< keep the energy ledger
+  bool load = false;                     ///< snapshots carry the sum of contact forces on each grain
+  Watch watch;
+  std::uint64_t seed = 1;
+};
+
+/// The largest step that is safe before any contact is known, and which pair of materials set it.
+struct TimeStepChoice {
+  double limit = 0;      ///< s: stability limit of the stiffest pair on the smallest grain with twelve contacts
+  std::string limitedBy;
+};
+
+/// \brief The stability limit from the model alone (docs/physics.md, S1–S3). Throws Error when there is nothing to derive it from.
+TimeStepChoice chooseTimeStep(const Model& model);
+
+}  // namespace tsubu::sim

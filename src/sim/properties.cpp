@@ -1,0 +1,26 @@
+#include "sim/properties.h"
+
+namespace tsubu::sim {
+
+std::span<const PropertyInfo, propertyCount> propertyTable() {
+  constexpr double big = 1e30;
+  static constexpr std::array<PropertyInfo, propertyCount> table{{
+      {Property::density, Scope::material, "density", "ρ", "kg/m^3", 1e-6, big, "Mass per volume of the grain itself."},
+      {Property::normalStiffness, Scope::pair, "normal_stiffness", "k_n", "N/m", 1e-12, big, "Spring constant along the line of centres."},
+      {Property::tangentialStiffness, Scope::pair, "tangential_stiffness", "k_t", "N/m", 0, big,
+       "Spring constant of the sticking contact; 2/7 of the normal one when absent."},
+      {Property::restitution, Scope::pair, "restitution", "e", "", 1e-6, 1, "Speed after over speed before a head-on collision."},
+      {Property::normalDampingRate, Scope::pair, "normal_damping_rate", "γ_n", "1/s", 0, big,
+       "Normal dashpot per effective mass, η_n = m* γ_n: an alternative to restitution."},
+      {Property::tangentialDampingRate, Scope::pair, "tangential_damping_rate", "γ_t", "1/s", 0, big,
+       "Tangential dashpot per effective mass, η_t = m* γ_t; when absent the damping ratio of the normal contact is used."},
+      {Property::friction, Scope::pair, "friction", "μ", "", 0, 1e9, "Coulomb coefficient: the tangential force is at most μ times the normal one."},
+      {Property::rollingFriction, Scope::pair, "rolling_friction", "μ_r", "", 0, 1e9,
+       "Rolling resistance: the torque is at most μ_r R* times the normal force."},
+      {Property::rollingDamping, Scope::pair, "rolling_damping", "ζ_r", "", 0, 1e3,
+       "Damping ratio of the rolling spring; 0.3 when absent."},
+  }};
+  return table;
+}
+
+}  // namespace tsubu::sim

@@ -1,0 +1,81 @@
+#pragma once
+// A running simulation: the only class of `sim` that others hold.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/snapshot.h"
+#include "sim/ledger.h"
+#include "sim/model.h"
+
+namespace tsubu::sim {
+
+struct Counts {
+  std::uint64_t inserted = 0;
+  std::uint64_t removed = 0;
+  std::uint64_t lost = 0;
+  std::vector<std::int64_t> crossed;  ///< per counter
+};
+
+struct LostGrain {
+  std::uint32_t id;
+  Vec3 position;
+  double time;
+  std::string why;
+};
+
+/// What the contacts look like at the present instant.
+struct ContactSummary {
+  std::uint64_t touching = 0;
+  double deepestOverlap = 0;  ///< largest overlap over the smaller radius
+};
+
+/// What is modelled and what it costs; printed by `tsubu explain`.
+struct Plan {
+  std::vector<std::string> passes;      ///< in the order of the step
+  std::vector<std::string> modelled;
+  std::vector<std::string> notModelled;
+  std::size_t bytesPerGrain = 0;
+  std::size_t bytesPerContact = 0;      ///< memory that the laws keep for a contact
+  std::size_t bytesPerListedPair = 0;   ///< neighbour lists
+};
+
+class Simulation {
+ public:
+  /// Takes a complete model. `threads` ≥ 1; the results do not depend on it. Throws Error(scene) when laws and properties do not fit.
+  Simulation(Model model, int threads);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  /// Takes `steps` steps. Throws Error(simulation) with grain, place, time and likely cause when the watch says stop; the state is
+  /// then that of the last complete step.
+  void advance(std::uint64_t steps);
+
+  double time() const;
+  double timeStep() const;
+  std::uint64_t steps() const;
+  std::size_t grains() const;
+  const Counts& counts() const;
+  const std::vector<LostGrain>& lostGrains() const;
+  const std::vector<std::string>& warnings() const;  ///< one sentence each, in the order they came up
+  std::uint64_t grainSteps() const;                  ///< sum over steps of the number of grains
+
+  /// All of these evaluate the state at time(), forces included.
+  Ledger ledger();
+  ContactSummary contacts();
+  void fill(Snapshot& snapshot);
+  /// Hash over the grains in the order of their ids (position, velocity, orientation) and the contact memory; equal for equal bits.
+  std::uint64_t stateHash();
+
+  /// Without running: what this model will do.
+  static Plan plan(const Model& model);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tsubu::sim
