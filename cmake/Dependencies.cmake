@@ -1,11 +1,11 @@
-# Every third-party library, found once, with the name of the Debian package in the message when it is missing.
-include(FindPkgConfig)
-
-function(tsubu_require what package)
+# Every third-party library, found once. All that are missing are named in one message, by their Debian packages; scripts/setup
+# reads the names of the packages from the tsubu_require lines of this file.
+set(TSUBU_MISSING_PACKAGES "")
+macro(tsubu_require what package)
   if(NOT ${what})
-    message(FATAL_ERROR "tsubu needs ${package}: install it with  apt-get install ${package}")
+    list(APPEND TSUBU_MISSING_PACKAGES ${package})
   endif()
-endfunction()
+endmacro()
 
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 QUIET NO_MODULE)
@@ -22,9 +22,11 @@ find_package(nlohmann_json 3.11 QUIET)
 tsubu_require(nlohmann_json_FOUND nlohmann-json3-dev)
 find_package(PkgConfig QUIET)
 tsubu_require(PKG_CONFIG_FOUND pkg-config)
-pkg_check_modules(TOMLPLUSPLUS QUIET IMPORTED_TARGET tomlplusplus>=3.3)
+if(PKG_CONFIG_FOUND)
+  pkg_check_modules(TOMLPLUSPLUS QUIET IMPORTED_TARGET tomlplusplus>=3.3)
+  pkg_check_modules(OSMESA QUIET IMPORTED_TARGET osmesa)
+endif()
 tsubu_require(TOMLPLUSPLUS_FOUND libtomlplusplus-dev)
-pkg_check_modules(OSMESA QUIET IMPORTED_TARGET osmesa)
 tsubu_require(OSMESA_FOUND libosmesa6-dev)
 if(TSUBU_TESTS)
   find_package(GTest QUIET)
@@ -33,4 +35,11 @@ endif()
 if(TSUBU_BENCH)
   find_package(benchmark QUIET)
   tsubu_require(benchmark_FOUND libbenchmark-dev)
+endif()
+
+if(TSUBU_MISSING_PACKAGES)
+  list(REMOVE_DUPLICATES TSUBU_MISSING_PACKAGES)
+  list(JOIN TSUBU_MISSING_PACKAGES " " TSUBU_MISSING_PACKAGES)
+  message(FATAL_ERROR "tsubu needs libraries that were not found (or are too old). On Debian:\n"
+    "  apt-get install ${TSUBU_MISSING_PACKAGES}\nor let scripts/setup do it.")
 endif()

@@ -30,6 +30,9 @@ function(tsubu_test name)
   cmake_parse_arguments(T "" "TIMEOUT" "SOURCES;USES;LABELS" ${ARGN})
   add_executable(${name} ${T_SOURCES})
   target_link_libraries(${name} PRIVATE ${T_USES} tsubu_test_support GTest::gtest GTest::gtest_main)
+  # Tests are compiled once and run once: -O2 saves a third of the compile time, and g++ 12 warns falsely
+  # (maybe-uninitialized) about temporaries with strings at -O3.
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O2>)
   add_test(NAME ${name} COMMAND ${name})
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT 600)
