@@ -1,0 +1,38 @@
+#pragma once
+// Rolling resistance of constant torque.
+//
+//   R1   M = −μ_r R* |F_n| ω_rel/|ω_rel|,   ω_rel = ω_i − ω_j
+//   R2   |M| ≤ |ω_rel| / ((1/I_i + 1/I_j) Δt): it can stop the relative spin within a step, never reverse it
+//
+//   μ_r  rolling friction      R*  effective radius, m      I  moment of inertia, kg m²
+//
+// R* and not r_i: with r_i two spheres of different size would not get opposite moments. It resists spin about n like rolling. It has
+// no memory and so cannot hold a pile at rest: the torque dies with the spin (for teaching; see elastic_plastic_rolling.h).
+//
+// Source: Zhou et al., Physica A 269 (1999) 536, model A. Proven by tests/sim/laws/rolling_test.cpp.
+
+#include "sim/laws/rolling.h"
+
+namespace tsubu::sim {
+
+struct ConstantRolling {
+  static constexpr std::string_view name = "constant";
+  static constexpr std::string_view sentence = "Constant torque against the relative spin (R1, R2); no memory, so a pile creeps.";
+  static constexpr std::array reads{need(Property::rollingFriction)};
+  static constexpr int stateSize = 0;
+  static constexpr bool acts = true;
+
+  struct Pair {
+    double rollingFriction;  // μ_r
+  };
+  static Pair prepare(const PropertyValues& values, const LinearNormal::Pair&) { return {values[Property::rollingFriction]}; }
+
+  TSUBU_LAW RollingMoment moment(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, V3&) {
+    const double spin = norm(c.relativeSpin);
+    const double limit = p.rollingFriction * c.effectiveRadius * std::abs(normal.force);
+    const double stop = spin / (c.inverseSpinInertia * step.dt);
+    return {-(smaller(limit, stop) / larger(spin, tiny)) * c.relativeSpin, 0, 0};
+  }
+};
+
+}  // namespace tsubu::sim

@@ -1,0 +1,29 @@
+#pragma once
+// One contact as a law sees it. A law never sees the grains, the lists or the world: it gets this, by value, and returns a force.
+
+#include "sim/laws/arithmetic.h"
+
+namespace tsubu::sim {
+
+/// Geometry and kinematics of a contact between i and j, with n from j to i (docs/physics.md, notation). A wall is a body with
+/// 1/m = 0 and 1/R = 0: the pair formulas are the wall formulas.
+struct Contact {
+  V3 n;                      ///< unit normal, from j to i
+  double overlap;            ///< δ = r_i + r_j − |x_ij|, m; positive when touching
+  double separationSpeed;    ///< v_n = v_ij·n, m/s; negative while approaching
+  V3 slip;                   ///< v_t, velocity of i's surface over j's at the contact point, m/s
+  V3 relativeSpin;           ///< ω_i − ω_j, rad/s; only set for laws that resist rolling
+  double effectiveMass;      ///< m*, kg
+  double effectiveRadius;    ///< R*, m; only set for laws that read it
+  double inverseSpinInertia; ///< 1/I_i + 1/I_j, 1/(kg m²); only set for laws that resist rolling
+  double meanSpinAngle;      ///< ½(ω_i + ω_j)·n Δt, rad: how far the contact frame turns about n in a step
+};
+
+/// The step as a law sees it. Memory is kept at half steps: it is advanced by a whole step, and the force is taken `lead` of a step
+/// beyond the old memory (½ for velocity Verlet, 1 for symplectic Euler, where memory and position belong to the same instant).
+struct StepOf {
+  double dt;
+  double lead;
+};
+
+}  // namespace tsubu::sim

@@ -1,0 +1,55 @@
+#pragma once
+// Rolling resistance with an elastic–plastic spring and a dashpot ("type C").
+//
+//   R3   M = M_k + M_d,   dM_k/dt = −k_r ω_r,   |M_k| ≤ M_max = μ_r R* |F_n|
+//   R4   M_d = −2 ζ_r √(I_r k_r) ω_r while |M_k| < M_max, and 0 beyond
+//   R5   k_r = 2.25 k_n (μ_r R*)²,   1/I_r = (1/I_i + 1/I_j)/(1 + 5/2)
+//
+//   ω_r  relative spin without its part about n, rad/s      μ_r  rolling friction      ζ_r  rolling damping ratio (0.3 when absent)
+//   I_r  inertia of rolling about the contact point, kg m²: I + m r² = 7/2 I for a sphere
+//
+// It holds a pile at rest: M_k balances a moment at zero spin. The memory is −M_k, carried with the contact like the tangential one.
+//
+// Source: Ai et al., Powder Technology 206 (2011) 269, model C. Proven by tests/sim/laws/rolling_test.cpp.
+
+#include "sim/laws/rolling.h"
+
+namespace tsubu::sim {
+
+struct ElasticPlasticRolling {
+  static constexpr std::string_view name = "elastic_plastic";
+  static constexpr std::string_view sentence = "Elastic–plastic spring and dashpot (type C, R3–R5): a pile stands still.";
+  static constexpr std::array reads{need(Property::rollingFriction), mayRead(Property::rollingDamping)};
+  static constexpr int stateSize = 3;
+  static constexpr bool acts = true;
+
+  struct Pair {
+    double rollingFriction;    // μ_r
+    double stiffnessPerArea;   // k_r/R*²
+    double dampingRatio;       // ζ_r
+  };
+
+  static Pair prepare(const PropertyValues& values, const LinearNormal::Pair& normal) {
+    const double mu = values[Property::rollingFriction];
+    return {mu, 2.25 * normal.stiffness * mu * mu, values.valueOr(Property::rollingDamping, 0.3)};
+  }
+
+  TSUBU_LAW RollingMoment moment(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, V3& memory) {
+    const double stiffness = p.stiffnessPerArea * c.effectiveRadius * c.effectiveRadius;
+    const double inertia = 3.5 / c.inverseSpinInertia;
+    const double damping = 2 * p.dampingRatio * std::sqrt(inertia * stiffness);
+    const V3 rolling = c.relativeSpin - dot(c.relativeSpin, c.n) * c.n;
+    const V3 before = carried(memory, c.n, c.meanSpinAngle);
+    const V3 gain = (stiffness * step.dt) * rolling;
+    const V3 trial = before + step.lead * gain;
+    const double limit = p.rollingFriction * c.effectiveRadius * std::abs(normal.force);
+    const double size = norm(trial);
+    const bool yields = size > limit;
+    const V3 spring = (yields ? limit / larger(size, tiny) : 1.0) * trial;
+    memory = select(yields, spring, before + gain);
+    const double half = 0.5 / larger(stiffness, tiny);
+    return {-spring - (yields ? 0.0 : damping) * rolling, half * norm2(before), half * norm2(memory)};
+  }
+};
+
+}  // namespace tsubu::sim

@@ -1,0 +1,74 @@
+#pragma once
+// Linear Kelvin–Voigt normal contact.
+//
+//   N1   F_n = k_n δ − η_n v_n                      (the force on i is F_n n)
+//   N2   F_n ≥ 0 unless tension is allowed
+//
+//   k_n  normal stiffness, N/m              δ    overlap, m
+//   η_n  damping, kg/s                      v_n  separation speed, m/s
+//
+// Damping from the restitution coefficient e (damping_from_restitution.h):
+//   N3   η_n = 2 β̂(e) √(m* k_n)    with β̂ the damping ratio that gives e, with tension or without
+// or from a rate: N4  η_n = m* γ_n.
+//
+// Source: Cundall & Strack 1979; the damped oscillator of a contact, with N3 inverted for both ends of a contact.
+// Holds for any overlap; stiffness does not depend on radius. Proven by tests/sim/laws/linear_normal_test.cpp.
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "sim/laws/contact.h"
+#include "sim/laws/damping_from_restitution.h"
+#include "sim/properties.h"
+
+namespace tsubu::sim {
+
+/// What the normal law hands to the laws after it.
+struct NormalForce {
+  double force;      ///< F_n, N; positive pushes apart
+  double elastic;    ///< the part that is stored, N
+  double energy;     ///< stored, J
+  double stiffness;  ///< dF/dδ at this overlap, N/m
+  double damping;    ///< η_n, kg/s
+};
+
+struct LinearNormal {
+  static constexpr std::string_view name = "linear";
+  static constexpr std::string_view sentence = "Linear spring and dashpot (N1): stiffness independent of overlap and radius.";
+  static constexpr std::array reads{need(Property::normalStiffness), needEither(Property::restitution, Property::normalDampingRate)};
+
+  struct Pair {
+    double stiffness;             // k_n
+    double dampingPerRootMass;    // η_n/√m*, from restitution
+    double dampingPerMass;        // η_n/m*, from a rate
+    double least;                 // smallest force: 0, or −∞ with tension
+  };
+
+  static Pair prepare(const PropertyValues& values, bool tension) {
+    Pair p{};
+    p.stiffness = values[Property::normalStiffness];
+    if (values.has(Property::normalDampingRate))
+      p.dampingPerMass = values[Property::normalDampingRate];
+    else
+      p.dampingPerRootMass = 2 * dampingRatioLinear(values[Property::restitution], tension) * std::sqrt(p.stiffness);
+    p.least = tension ? -std::numeric_limits<double>::infinity() : 0.0;
+    return p;
+  }
+
+  /// Largest stiffness of the contact (for the time step), N/m, and its damping ratio for an effective mass.
+  static double stiffness(const Pair& p) { return p.stiffness; }
+  static double damping(const Pair& p, double effectiveMass) {
+    return p.dampingPerRootMass * std::sqrt(effectiveMass) + p.dampingPerMass * effectiveMass;
+  }
+
+  TSUBU_LAW NormalForce force(const Pair& p, const Contact& c) {
+    const double damping = p.dampingPerRootMass * std::sqrt(c.effectiveMass) + p.dampingPerMass * c.effectiveMass;
+    const double elastic = p.stiffness * c.overlap;
+    const double force = larger(elastic - damping * c.separationSpeed, p.least);
+    return {force, elastic, 0.5 * elastic * c.overlap, p.stiffness, damping};
+  }
+};
+
+}  // namespace tsubu::sim

@@ -1,0 +1,65 @@
+#pragma once
+// Coulomb friction with a tangential spring that remembers.
+//
+//   T1   F_t = −k_t δ_t − η_t v_t
+//   T2   |F_t| ≤ μ |F_n|; beyond it the force is cut back along its direction, and the spring so that spring + dashpot = force
+//   T3   δ_t is carried with the contact: turned with n and with the mean spin about n, kept tangential at unchanged length
+//   T4   η_t = η_n √(k_t/k_n): the damping ratio of the normal contact; or η_t = m* γ_t from a rate
+//
+//   k_t  tangential stiffness, N/m (2/7 k_n when absent)      v_t  slip velocity, m/s
+//   μ    friction coefficient                                  δ_t  tangential displacement, m
+//
+// The memory is k_t δ_t in N. It is advanced with the slip of a whole step and read at `lead` of a step, so that in velocity Verlet
+// the spring's work over a step is exactly the change of its energy: a sticking contact leaks nothing (docs/physics.md, T5).
+//
+// Source: Cundall & Strack 1979; cutting back after Luding, Granular Matter 10 (2008) 235. Proven by tests/sim/laws/spring_friction_test.cpp.
+
+#include "sim/laws/tangential.h"
+
+namespace tsubu::sim {
+
+struct SpringFriction {
+  static constexpr std::string_view name = "spring";
+  static constexpr std::string_view sentence = "Coulomb friction with a spring that remembers (T1–T4): grains stick, then slide.";
+  static constexpr std::array reads{need(Property::friction), mayRead(Property::tangentialStiffness),
+                                    mayRead(Property::tangentialDampingRate)};
+  static constexpr int stateSize = 3;
+  static constexpr bool acts = true;
+
+  struct Pair {
+    double stiffness;         // k_t
+    double half;              // 1/(2 k_t), or 0 without a spring
+    double friction;          // μ
+    double dampingOfNormal;   // η_t/η_n
+    double dampingPerMass;    // η_t/m*
+  };
+
+  static Pair prepare(const PropertyValues& values, const LinearNormal::Pair& normal) {
+    Pair p{};
+    p.stiffness = values.valueOr(Property::tangentialStiffness, 2.0 / 7.0 * normal.stiffness);
+    p.half = p.stiffness > 0 ? 0.5 / p.stiffness : 0;
+    p.friction = values[Property::friction];
+    if (values.has(Property::tangentialDampingRate))
+      p.dampingPerMass = values[Property::tangentialDampingRate];
+    else
+      p.dampingOfNormal = std::sqrt(p.stiffness / normal.stiffness);
+    return p;
+  }
+
+  static double stiffness(const Pair& p) { return p.stiffness; }
+
+  TSUBU_LAW TangentialForce force(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, V3& memory) {
+    const double damping = p.dampingOfNormal * normal.damping + p.dampingPerMass * c.effectiveMass;
+    const V3 before = carried(memory, c.n, c.meanSpinAngle);
+    const V3 gain = (p.stiffness * step.dt) * c.slip;
+    const V3 trial = before + step.lead * gain + damping * c.slip;
+    const double limit = p.friction * std::abs(normal.force);
+    const double size = norm(trial);
+    const bool slides = size > limit;
+    const V3 force = (slides ? -(limit / larger(size, tiny)) : -1.0) * trial;
+    memory = select(slides, -force - damping * c.slip, before + gain);
+    return {force, p.half * norm2(before), p.half * norm2(memory), slides ? 0.0 : damping * norm2(c.slip) * step.dt};
+  }
+};
+
+}  // namespace tsubu::sim
