@@ -20,11 +20,28 @@ class Random {
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1.0p-53; }
   /// Uniform in [low, high).
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  /// Normal with mean 0 and deviation 1, by the polar method (its logarithm may differ in the last bit between C libraries).
+  /// True with probability exp(−x), 0 ≤ x ≤ 1: von Neumann's falling runs. x > u1 > u2 > … has length ≥ n with probability xⁿ/n!, so
+  /// an even length has probability 1 − x + x²/2! − … = exp(−x). Comparisons only: no C library has a say in the bits.
+  bool chanceExp(double x) {
+    bool even = true;
+    for (double last = x;; even = !even) {
+      const double next = uniform();
+      if (next >= last) return even;
+      last = next;
+    }
+  }
+  /// Normal with mean 0 and deviation 1, without a logarithm (Karney 2016, doi:10.1145/2710016, algorithm N): k whole units with
+  /// probability ∝ exp(−k²/2), then a fraction x kept with probability exp(−x(2k + x)/2).
   double normal() {
     for (;;) {
-      const double u = uniform(-1, 1), v = uniform(-1, 1), s = u * u + v * v;
-      if (s > 0 && s < 1) return u * std::sqrt(-2 * std::log(s) / s);
+      int k = 0;
+      while (chanceExp(0.5)) ++k;
+      bool keep = true;
+      for (int i = 0; keep && i < k * (k - 1); ++i) keep = chanceExp(0.5);
+      if (!keep) continue;
+      const double x = uniform();
+      for (int i = 0; keep && i <= k; ++i) keep = chanceExp(x * (2 * k + x) / (2 * k + 2));
+      if (keep) return bits() >> 63 ? -(k + x) : k + x;
     }
   }
 
