@@ -137,13 +137,12 @@ inline constexpr std::array<Word<ColourBy>, 6> colourByWords{{{"uniform", Colour
                                                               {"force", ColourBy::force},
                                                               {"angular_velocity", ColourBy::angularVelocity}}};
 
-/// Sequential and perceptually uniform, except `vik` (diverging) and `turbo` (a rainbow that is at least smooth).
-enum class ColourMap { viridis, cividis, batlow, vik, turbo };
-inline constexpr std::array<Word<ColourMap>, 5> colourMapWords{{{"viridis", ColourMap::viridis},
+/// All perceptually uniform; `vik` is diverging, for a range whose middle means something.
+enum class ColourMap { viridis, cividis, batlow, vik };
+inline constexpr std::array<Word<ColourMap>, 4> colourMapWords{{{"viridis", ColourMap::viridis},
                                                                 {"cividis", ColourMap::cividis},
                                                                 {"batlow", ColourMap::batlow},
-                                                                {"vik", ColourMap::vik},
-                                                                {"turbo", ColourMap::turbo}}};
+                                                                {"vik", ColourMap::vik}}};
 
 /// What is painted on a grain, so that one sees it turn. Needs the orientation in the snapshot.
 enum class Pattern { none, twoTone, stripes };
