@@ -1,0 +1,36 @@
+#pragma once
+// The region of a plane inside closed outlines: is a point in it, and how far is it from the outline?
+
+#include <cstdint>
+#include <vector>
+
+#include "core/vec.h"
+
+namespace tsubu::sim {
+
+using Vec2 = Eigen::Vector2d;
+
+/// Any number of closed loops, given as a bag of segments; a point is inside when a ray from it crosses an odd number of them.
+/// Segments are sorted into strips of equal height, so that a point looks only at those at its own height.
+class Outline {
+ public:
+  struct Segment {
+    Vec2 a, b;
+  };
+
+  Outline() = default;
+  explicit Outline(const std::vector<Segment>& segments);
+
+  bool contains(const Vec2& point) const;
+  /// Squared distance to the nearest segment, or something larger than reach² when that is farther than `reach`.
+  double squaredDistance(const Vec2& point, double reach) const;
+
+ private:
+  std::uint32_t strip(double y) const;
+
+  double low_ = 0, high_ = -1, perHeight_ = 0;  ///< strips from low_ to high_, perHeight_ of them per metre
+  std::vector<std::uint32_t> begin_;            ///< of each strip in segments_, and the end
+  std::vector<Segment> segments_;               ///< repeated in every strip that they touch
+};
+
+}  // namespace tsubu::sim

@@ -1,0 +1,92 @@
+#pragma once
+// The geometry of a wall: planar faces, the edges where they meet or end, and the corners where edges meet. Coplanar neighbouring
+// triangles are one face, so that a grain feels the shape of the wall and not its triangulation. Pure geometry in the frame of
+// the wall: no material, no motion. All const methods may be called by many threads at once.
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/mesh.h"
+#include "core/vec.h"
+#include "sim/walls/bvh.h"
+#include "sim/walls/contact.h"
+#include "sim/walls/faults.h"
+#include "sim/walls/features.h"
+#include "sim/walls/plane.h"
+
+namespace tsubu::sim {
+
+class Surface {
+ public:
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  /// Welds, repairs and merges the triangles of `mesh` (m, frame of the wall). What was found is in faults().
+  /// Throws Error (files) with every fault that cannot be repaired, each naming its triangles.
+  explicit Surface(const TriangleMesh& mesh);
+
+  /// An unbounded plane: one face without edges, solid behind. `normal` need not be a unit vector, but not zero.
+  static Surface plane(std::string name, const Vec3& point, const Vec3& normal);
+
+  const std::string& name() const { return name_; }
+  const std::vector<MeshFault>& faults() const { return faults_; }
+
+  /// Features are numbered faces first, then edges, then corners.
+  std::uint32_t faceCount() const { return static_cast<std::uint32_t>(features_.faces.size()); }
+  std::uint32_t edgeCount() const { return static_cast<std::uint32_t>(features_.edges.size()); }
+  std::uint32_t cornerCount() const { return static_cast<std::uint32_t>(features_.corners.size()); }
+  std::uint32_t featureCount() const { return faceCount() + edgeCount() + cornerCount(); }
+  bool isFace(std::uint32_t feature) const { return feature < faceCount(); }
+  /// The plane of a face.
+  const Plane& facePlane(std::uint32_t face) const { return features_.faces[face].plane; }
+  /// The plane itself when the wall is an unbounded plane, for a caller that has a faster way with those.
+  std::optional<Plane> asPlane() const;
+
+  /// Two features that touch (a face and its edge, two faces with a common corner, …): tangential memory passes between them
+  /// when a grain rolls from one to the other. A feature is its own neighbour.
+  bool neighbours(std::uint32_t a, std::uint32_t b) const;
+
+  /// m; infinite for an unbounded plane.
+  const Box& bounds() const { return bounds_; }
+
+  /// Replaces `features` by those with a point nearer than `reach` to `centre` (m), in ascending order.
+  void candidates(const Vec3& centre, double reach, std::vector<std::uint32_t>& features) const;
+
+  /// The contacts of a sphere, given ascending candidates that hold at least every feature nearer than `radius`.
+  /// No allocation; contacts come in ascending order of feature with their weights set (shareLoad).
+  void contacts(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates, WallContacts& contacts) const;
+
+  /// The first face among the candidates that the straight way from one point to another (m) passes through, or `none`:
+  /// a centre that did so between two steps has tunnelled.
+  std::uint32_t crossedFace(const Vec3& from, const Vec3& to, std::span<const std::uint32_t> candidates) const;
+
+  /// m: distance of the point from the plane of a face, positive on the side of its normal.
+  double signedDistance(std::uint32_t face, const Vec3& point) const { return facePlane(face).signedDistance(point); }
+
+  /// m: an estimate of the thinnest place between two parallel faces (sampled at the largest triangles of each face); infinite
+  /// when there is none. A step must be much shorter than this.
+  double thinnest() const;
+
+  /// The welded and repaired triangles, and the face of each.
+  const TriangleMesh& mesh() const { return features_.mesh; }
+  const std::vector<std::uint32_t>& faceOfTriangle() const { return features_.faceOfTriangle; }
+
+ private:
+  Surface() = default;
+
+  bool closestOnEdge(const Edge& edge, const Vec3& centre, double radius, WallContact& contact) const;
+  bool closestOnCorner(const Corner& corner, const Vec3& centre, double radius, WallContact& contact) const;
+  void insert(const WallContact& contact, double radius, WallContacts& contacts) const;
+  double thicknessAt(std::uint32_t face, const Vec3& point) const;
+
+  std::string name_;
+  std::vector<MeshFault> faults_;
+  Features features_;
+  Bvh bvh_;
+  Box bounds_;
+};
+
+}  // namespace tsubu::sim
