@@ -37,9 +37,7 @@ TEST(Mix64, OneBitChangesHalfOfTheBits) {
   EXPECT_NEAR(flips / 4096.0, 32.0, 5.0 / 16.0);
 }
 
-TEST(Hash, IsAFunctionOfWhatWasAdded) {
-  EXPECT_EQ(hashOf({1.0, 2.0, 3.0}), hashOf({1.0, 2.0, 3.0}));
-}
+TEST(Hash, IsAFunctionOfWhatWasAdded) { EXPECT_EQ(hashOf({1.0, 2.0, 3.0}), hashOf({1.0, 2.0, 3.0})); }
 
 TEST(Hash, SeesTheOrder) { EXPECT_NE(hashOf({1.0, 2.0}), hashOf({2.0, 1.0})); }
 

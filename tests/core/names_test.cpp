@@ -8,10 +8,10 @@ namespace {
 const std::vector<std::string> laws = {"hooke", "hertz", "viscoelastic", "none"};
 
 TEST(NearestName, FindsASlipOfThePen) {
-  EXPECT_EQ(nearestName("herz", laws), "hertz");              // a letter lost
-  EXPECT_EQ(nearestName("hookee", laws), "hooke");            // a letter too many
-  EXPECT_EQ(nearestName("hooge", laws), "hooke");             // a wrong letter
-  EXPECT_EQ(nearestName("hetrz", laws), "hertz");             // two letters swapped count as one slip
+  EXPECT_EQ(nearestName("herz", laws), "hertz");                 // a letter lost
+  EXPECT_EQ(nearestName("hookee", laws), "hooke");               // a letter too many
+  EXPECT_EQ(nearestName("hooge", laws), "hooke");                // a wrong letter
+  EXPECT_EQ(nearestName("hetrz", laws), "hertz");                // two letters swapped count as one slip
   EXPECT_EQ(nearestName("viscoelsatik", laws), "viscoelastic");  // a swap and a wrong letter
 }
 

@@ -92,7 +92,7 @@ TEST(Random, EveryBitIsFair) {
     const std::uint64_t word = random.bits();
     for (std::size_t bit = 0; bit < 64; ++bit) ones[bit] += static_cast<int>(word >> bit & 1);
   }
-  for (const int count : ones) EXPECT_NEAR(count, samples / 2, 5 * std::sqrt(samples / 4.0));
+  for (const int count : ones) EXPECT_NEAR(count, samples / 2.0, 5 * std::sqrt(samples / 4.0));
 }
 
 // Moments of the standard normal distribution: 0, 1, 0, 3; the variance of x^k is E x^2k - (E x^k)^2 = 1, 2, 15, 96.
