@@ -25,7 +25,7 @@ struct ConstantRolling {
   struct Pair {
     double rollingFriction;  // μ_r
   };
-  static Pair prepare(const PropertyValues& values, const LinearNormal::Pair&) { return {values[Property::rollingFriction]}; }
+  static Pair prepare(const PropertyValues& values, double) { return {values[Property::rollingFriction]}; }
 
   TSUBU_LAW RollingMoment moment(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, V3&) {
     const double spin = norm(c.relativeSpin);

@@ -39,7 +39,8 @@ struct ContactLaw {
 
   static Pair prepare(const PropertyValues& values, bool tension) {
     const typename N::Pair normal = N::prepare(values, tension);
-    return {normal, T::prepare(values, normal), R::prepare(values, normal)};
+    const double stiffness = N::stiffness(normal);
+    return {normal, T::prepare(values, stiffness), R::prepare(values, stiffness)};
   }
 
   /// `state` holds the two memories; `energy` is filled when asked for at compile time.

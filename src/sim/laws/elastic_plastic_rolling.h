@@ -29,26 +29,30 @@ struct ElasticPlasticRolling {
     double dampingRatio;       // ζ_r
   };
 
-  static Pair prepare(const PropertyValues& values, const LinearNormal::Pair& normal) {
+  static Pair prepare(const PropertyValues& values, double normalStiffness) {
     const double mu = values[Property::rollingFriction];
-    return {mu, 2.25 * normal.stiffness * mu * mu, values.valueOr(Property::rollingDamping, 0.3)};
+    return {mu, 2.25 * normalStiffness * mu * mu, values.valueOr(Property::rollingDamping, 0.3)};
   }
 
+  TSUBU_LAW double stiffness(const Pair& p, const Contact& c) { return p.stiffnessPerArea * c.effectiveRadius * c.effectiveRadius; }
+
+  /// Energy that a memory holds, J.
+  TSUBU_LAW double stored(const Pair& p, const Contact& c, V3 memory) { return 0.5 / larger(stiffness(p, c), tiny) * norm2(memory); }
+
   TSUBU_LAW RollingMoment moment(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, V3& memory) {
-    const double stiffness = p.stiffnessPerArea * c.effectiveRadius * c.effectiveRadius;
+    const double k = stiffness(p, c);
     const double inertia = 3.5 / c.inverseSpinInertia;
-    const double damping = 2 * p.dampingRatio * std::sqrt(inertia * stiffness);
+    const double damping = 2 * p.dampingRatio * std::sqrt(inertia * k);
     const V3 rolling = c.relativeSpin - dot(c.relativeSpin, c.n) * c.n;
     const V3 before = carried(memory, c.n, c.meanSpinAngle);
-    const V3 gain = (stiffness * step.dt) * rolling;
+    const V3 gain = (k * step.dt) * rolling;
     const V3 trial = before + step.lead * gain;
     const double limit = p.rollingFriction * c.effectiveRadius * std::abs(normal.force);
     const double size = norm(trial);
     const bool yields = size > limit;
     const V3 spring = (yields ? limit / larger(size, tiny) : 1.0) * trial;
     memory = select(yields, spring, before + gain);
-    const double half = 0.5 / larger(stiffness, tiny);
-    return {-spring - (yields ? 0.0 : damping) * rolling, half * norm2(before), half * norm2(memory)};
+    return {-spring - (yields ? 0.0 : damping) * rolling, stored(p, c, before), stored(p, c, memory)};
   }
 };
 

@@ -19,20 +19,11 @@
 #include <limits>
 #include <string_view>
 
-#include "sim/laws/contact.h"
 #include "sim/laws/damping_from_restitution.h"
+#include "sim/laws/normal.h"
 #include "sim/properties.h"
 
 namespace tsubu::sim {
-
-/// What the normal law hands to the laws after it.
-struct NormalForce {
-  double force;      ///< F_n, N; positive pushes apart
-  double elastic;    ///< the part that is stored, N
-  double energy;     ///< stored, J
-  double stiffness;  ///< dF/dδ at this overlap, N/m
-  double damping;    ///< η_n, kg/s
-};
 
 struct LinearNormal {
   static constexpr std::string_view name = "linear";

@@ -19,7 +19,7 @@ struct FreeRolling {
   static constexpr int stateSize = 0;
   static constexpr bool acts = false;
   struct Pair {};
-  static Pair prepare(const PropertyValues&, const LinearNormal::Pair&) { return {}; }
+  static Pair prepare(const PropertyValues&, double) { return {}; }
 };
 
 }  // namespace tsubu::sim

@@ -34,19 +34,22 @@ struct SpringFriction {
     double dampingPerMass;    // η_t/m*
   };
 
-  static Pair prepare(const PropertyValues& values, const LinearNormal::Pair& normal) {
+  static Pair prepare(const PropertyValues& values, double normalStiffness) {
     Pair p{};
-    p.stiffness = values.valueOr(Property::tangentialStiffness, 2.0 / 7.0 * normal.stiffness);
+    p.stiffness = values.valueOr(Property::tangentialStiffness, 2.0 / 7.0 * normalStiffness);
     p.half = p.stiffness > 0 ? 0.5 / p.stiffness : 0;
     p.friction = values[Property::friction];
     if (values.has(Property::tangentialDampingRate))
       p.dampingPerMass = values[Property::tangentialDampingRate];
     else
-      p.dampingOfNormal = std::sqrt(p.stiffness / normal.stiffness);
+      p.dampingOfNormal = std::sqrt(p.stiffness / normalStiffness);
     return p;
   }
 
   static double stiffness(const Pair& p) { return p.stiffness; }
+
+  /// Energy that a memory holds, J.
+  TSUBU_LAW double stored(const Pair& p, V3 memory) { return p.half * norm2(memory); }
 
   TSUBU_LAW TangentialForce force(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, V3& memory) {
     const double damping = p.dampingOfNormal * normal.damping + p.dampingPerMass * c.effectiveMass;
@@ -58,7 +61,7 @@ struct SpringFriction {
     const bool slides = size > limit;
     const V3 force = (slides ? -(limit / larger(size, tiny)) : -1.0) * trial;
     memory = select(slides, -force - damping * c.slip, before + gain);
-    return {force, p.half * norm2(before), p.half * norm2(memory), slides ? 0.0 : damping * norm2(c.slip) * step.dt};
+    return {force, stored(p, before), stored(p, memory), slides ? 0.0 : damping * norm2(c.slip) * step.dt};
   }
 };
 

@@ -1,7 +1,11 @@
 #pragma once
 // What every tangential law returns.
 
-#include "sim/laws/linear_normal.h"
+#include <array>
+#include <string_view>
+
+#include "sim/laws/normal.h"
+#include "sim/properties.h"
 
 namespace tsubu::sim {
 
@@ -20,7 +24,7 @@ struct Frictionless {
   static constexpr int stateSize = 0;
   static constexpr bool acts = false;
   struct Pair {};
-  static Pair prepare(const PropertyValues&, const LinearNormal::Pair&) { return {}; }
+  static Pair prepare(const PropertyValues&, double) { return {}; }
   static double stiffness(const Pair&) { return 0; }
 };
 

@@ -1,0 +1,30 @@
+#pragma once
+// How grains lie in memory. A contact needs everything about both partners, so a grain is one row and not a line in many arrays:
+// two cache lines fetch it whole. r ω instead of ω keeps the radius out of the slip velocity; the couple of a contact then adds the
+// same number to both partners (docs/architecture.md, "The step").
+
+#include "sim/laws/arithmetic.h"
+
+namespace tsubu::sim {
+
+/// What contacts read of a grain. `v` and `s` are the velocities that contacts see (docs/physics.md, I1).
+struct alignas(32) GrainRow {
+  double x, y, z;         ///< centre, m
+  double radius;          ///< m
+  double vx, vy, vz;      ///< m/s
+  double inverseMass;     ///< 1/kg
+  double sx, sy, sz;      ///< r ω, m/s
+  double inverseRadius;   ///< 1/m
+
+  TSUBU_INLINE V3 position() const { return {x, y, z}; }
+  TSUBU_INLINE V3 velocity() const { return {vx, vy, vz}; }
+  TSUBU_INLINE V3 surfaceSpin() const { return {sx, sy, sz}; }
+};
+
+/// What contacts do to a grain: F, and the couple Q with torque T = −r Q.
+struct alignas(64) ForceRow {
+  double fx, fy, fz, unused0;
+  double qx, qy, qz, unused1;
+};
+
+}  // namespace tsubu::sim

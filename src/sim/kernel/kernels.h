@@ -1,0 +1,63 @@
+#pragma once
+// The inner loops, compiled once for each instruction set and chosen when the program starts. All give the same bits.
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "sim/grain_rows.h"
+#include "sim/kernel/stage.h"
+#include "sim/laws/contact.h"
+
+namespace tsubu::sim {
+
+/// A run of listed pairs (i < j) with their memory: component c of contact k at memory[c * stride + k].
+struct PairRange {
+  const std::int32_t* i;
+  const std::int32_t* j;
+  std::int64_t count;
+  double* memory;
+  std::size_t stride;
+};
+
+/// What a pass needs beyond the contacts themselves.
+struct PassContext {
+  const GrainRow* rows;
+  ForceRow* forces;
+  const std::uint16_t* material;  ///< per grain
+  std::size_t materials;
+  const void* pairs;              ///< Law::Pair[materials × materials]
+  StepOf step;
+};
+
+/// Which variant of the loops: one class of pairs or several; with accounts (and watch) or without.
+struct PassKind {
+  bool oneClass;
+  bool accounts;
+};
+
+/// Adds the forces of a range of pairs to the force rows.
+using PairPass = void (*)(const PassContext&, const PairRange&, Stage&, Accounts&);
+/// Computes `count` wall contacts that lie in the stage, memory included.
+using WallPass = void (*)(const PassContext&, int count, Stage&, Accounts&);
+
+struct Kernels {
+  std::string_view isa;
+  PairPass pairs(std::size_t law, PassKind kind) const { return pairPass(law, kind); }
+  WallPass walls(std::size_t law, PassKind kind) const { return wallPass(law, kind); }
+
+  PairPass (*pairPass)(std::size_t, PassKind);
+  WallPass (*wallPass)(std::size_t, PassKind);
+};
+
+/// The kernels that this processor can run, the portable ones first, the widest last.
+const std::vector<Kernels>& availableKernels();
+
+/// The kernels in use: the widest, unless `useKernels` said otherwise.
+const Kernels& kernels();
+
+/// Forces one instruction set by name ("portable", "avx2", "avx512"). Throws Error(scene) when this processor or build has no such.
+void useKernels(std::string_view isa);
+
+}  // namespace tsubu::sim

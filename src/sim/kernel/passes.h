@@ -1,0 +1,220 @@
+#pragma once
+// The loops over contacts: gather, compute, scatter. Included by one translation unit per instruction set; everything here has
+// internal linkage or is inlined, so that no instruction of a wide set leaks into code that every processor runs.
+
+#include "sim/kernel/kernels.h"
+#include "sim/laws/catalogue.h"
+
+// The contacts of a chunk do not depend on each other: the compiler need not check. (Not `omp simd`: GCC would give every lane its
+// own copy of the small structs of a law and then fail to vectorise them.)
+#if defined(__clang__)
+#define TSUBU_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define TSUBU_INDEPENDENT _Pragma("GCC ivdep")
+#endif
+
+namespace tsubu::sim {
+namespace {
+
+/// Columns of the stage from the rows of both grains.
+template <class Law, bool oneClass, bool accounts>
+void gather(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, Stage& s) {
+  const GrainRow* const rows = context.rows;
+  for (int q = 0; q < count; ++q) {
+    const GrainRow& a = rows[is[q]];
+    const GrainRow& b = rows[js[q]];
+    s.dx[q] = a.x - b.x;
+    s.dy[q] = a.y - b.y;
+    s.dz[q] = a.z - b.z;
+    s.radiusSum[q] = a.radius + b.radius;
+    s.dvx[q] = a.vx - b.vx;
+    s.dvy[q] = a.vy - b.vy;
+    s.dvz[q] = a.vz - b.vz;
+    s.inverseMassSum[q] = a.inverseMass + b.inverseMass;
+    if constexpr (Law::turns) {
+      s.sx[q] = a.sx + b.sx;
+      s.sy[q] = a.sy + b.sy;
+      s.sz[q] = a.sz + b.sz;
+      s.ox[q] = a.sx * a.inverseRadius + b.sx * b.inverseRadius;
+      s.oy[q] = a.sy * a.inverseRadius + b.sy * b.inverseRadius;
+      s.oz[q] = a.sz * a.inverseRadius + b.sz * b.inverseRadius;
+    }
+    if constexpr (Law::rolls) {
+      s.rx[q] = a.sx * a.inverseRadius - b.sx * b.inverseRadius;
+      s.ry[q] = a.sy * a.inverseRadius - b.sy * b.inverseRadius;
+      s.rz[q] = a.sz * a.inverseRadius - b.sz * b.inverseRadius;
+      s.effectiveRadius[q] = 1 / (a.inverseRadius + b.inverseRadius);
+      s.inverseSpinInertia[q] = 2.5 * (a.inverseMass * a.inverseRadius * a.inverseRadius + b.inverseMass * b.inverseRadius * b.inverseRadius);
+    }
+    if constexpr (accounts) s.smallerRadius[q] = smaller(a.radius, b.radius);
+    if constexpr (!oneClass) {
+      s.pairClass[q] = static_cast<std::int32_t>(context.material[is[q]] * context.materials + context.material[js[q]]);
+    }
+  }
+}
+
+/// The law on every contact of the chunk. `memory` points to the columns of the contacts' memory.
+template <class Law, bool oneClass, bool accounts, bool weighted>
+void compute(const PassContext& context, int count, Stage& s, double* const* memory) {
+  const auto* const pairs = static_cast<const typename Law::Pair*>(context.pairs);
+  const StepOf step = context.step;
+  constexpr int rollingAt = Law::Tangential::stateSize;
+  double* const t0 = memory[0];
+  double* const t1 = memory[1];
+  double* const t2 = memory[2];
+  double* const r0 = memory[rollingAt];
+  double* const r1 = memory[rollingAt + 1];
+  double* const r2 = memory[rollingAt + 2];
+  TSUBU_INDEPENDENT
+  for (int q = 0; q < count; ++q) {
+    const V3 d{s.dx[q], s.dy[q], s.dz[q]};
+    const double distance = norm(d);
+    const double inverse = 1 / larger(distance, tiny);
+    const bool touching = distance < s.radiusSum[q];
+    Contact c;
+    c.n = inverse * d;
+    c.overlap = s.radiusSum[q] - distance;
+    const V3 dv{s.dvx[q], s.dvy[q], s.dvz[q]};
+    c.separationSpeed = dot(dv, c.n);
+    c.effectiveMass = 1 / s.inverseMassSum[q];
+    double arm = 0;
+    if constexpr (Law::turns) {
+      arm = distance / s.radiusSum[q];
+      const V3 spin{s.sx[q], s.sy[q], s.sz[q]};
+      c.slip = dv - c.separationSpeed * c.n - arm * cross(spin, c.n);
+      c.meanSpinAngle = 0.5 * step.dt * (s.ox[q] * c.n.x + s.oy[q] * c.n.y + s.oz[q] * c.n.z);
+    }
+    if constexpr (Law::rolls) {
+      c.relativeSpin = {s.rx[q], s.ry[q], s.rz[q]};
+      c.effectiveRadius = s.effectiveRadius[q];
+      c.inverseSpinInertia = s.inverseSpinInertia[q];
+    }
+    V3 tangential{0, 0, 0}, rolling{0, 0, 0};
+    if constexpr (Law::Tangential::stateSize > 0) tangential = {t0[q], t1[q], t2[q]};
+    if constexpr (Law::Rolling::stateSize > 0) rolling = {r0[q], r1[q], r2[q]};
+    const V3 tangentialBefore = tangential, rollingBefore = rolling;
+    ContactEnergy energy{};
+    const typename Law::Pair& pair = pairs[oneClass ? 0 : s.pairClass[q]];
+    const ContactForce result = Law::template evaluate<accounts>(pair, c, step, tangential, rolling, energy);
+    const double share = weighted ? s.weight[q] : 1.0;
+    s.fx[q] = touching ? share * result.force.x : 0;
+    s.fy[q] = touching ? share * result.force.y : 0;
+    s.fz[q] = touching ? share * result.force.z : 0;
+    if constexpr (Law::turns) {
+      s.qx[q] = touching ? share * (arm * result.couple.x) : 0;
+      s.qy[q] = touching ? share * (arm * result.couple.y) : 0;
+      s.qz[q] = touching ? share * (arm * result.couple.z) : 0;
+    }
+    if constexpr (Law::rolls) {
+      s.mx[q] = touching ? share * result.moment.x : 0;
+      s.my[q] = touching ? share * result.moment.y : 0;
+      s.mz[q] = touching ? share * result.moment.z : 0;
+    }
+    if constexpr (Law::Tangential::stateSize > 0) {
+      t0[q] = touching ? tangential.x : 0;
+      t1[q] = touching ? tangential.y : 0;
+      t2[q] = touching ? tangential.z : 0;
+    }
+    if constexpr (Law::Rolling::stateSize > 0) {
+      r0[q] = touching ? rolling.x : 0;
+      r1[q] = touching ? rolling.y : 0;
+      r2[q] = touching ? rolling.z : 0;
+    }
+    if constexpr (accounts) {
+      // What a spring still holds when its contact ends is let go: friction and rolling resistance keep it.
+      double released = 0, releasedRolling = 0;
+      if constexpr (Law::Tangential::stateSize > 0) released = Law::Tangential::stored(pair.tangential, tangentialBefore);
+      if constexpr (Law::Rolling::stateSize > 0) releasedRolling = Law::Rolling::stored(pair.rolling, c, rollingBefore);
+      s.account[Accounts::storedNormal][q] = touching ? share * energy.storedNormal : 0;
+      s.account[Accounts::storedTangential][q] = touching ? share * energy.storedTangential : 0;
+      s.account[Accounts::storedRolling][q] = touching ? share * energy.storedRolling : 0;
+      s.account[Accounts::normal][q] = touching ? share * energy.normal : 0;
+      s.account[Accounts::tangential][q] = touching ? share * energy.tangential : 0;
+      s.account[Accounts::friction][q] = share * (touching ? energy.friction : released);
+      s.account[Accounts::rolling][q] = share * (touching ? energy.rolling : releasedRolling);
+      s.account[Accounts::overlap][q] = touching ? c.overlap / s.smallerRadius[q] : 0;
+    }
+  }
+}
+
+void addAccounts(int count, const Stage& s, Accounts& accounts) {
+  for (int kind = 0; kind < Accounts::overlap; ++kind)
+    for (int q = 0; q < count; ++q) accounts.lane[kind][q & 7] += s.account[kind][q];
+  double* const deepest = accounts.lane[Accounts::overlap];
+  for (int q = 0; q < count; ++q) {
+    const double overlap = s.account[Accounts::overlap][q];
+    deepest[q & 7] = larger(deepest[q & 7], overlap);
+    accounts.touching += overlap > 0;
+  }
+}
+
+/// Adds the columns to the rows of both grains, in the order of the contacts.
+template <class Law>
+void scatter(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, const Stage& s) {
+  for (int q = 0; q < count; ++q) {
+    ForceRow& a = context.forces[is[q]];
+    ForceRow& b = context.forces[js[q]];
+    a.fx += s.fx[q];
+    a.fy += s.fy[q];
+    a.fz += s.fz[q];
+    b.fx -= s.fx[q];
+    b.fy -= s.fy[q];
+    b.fz -= s.fz[q];
+    if constexpr (Law::rolls) {
+      // T = −r Q + M, so a moment is −M/r in Q.
+      const double ia = context.rows[is[q]].inverseRadius, ib = context.rows[js[q]].inverseRadius;
+      a.qx += s.qx[q] - s.mx[q] * ia;
+      a.qy += s.qy[q] - s.my[q] * ia;
+      a.qz += s.qz[q] - s.mz[q] * ia;
+      b.qx += s.qx[q] + s.mx[q] * ib;
+      b.qy += s.qy[q] + s.my[q] * ib;
+      b.qz += s.qz[q] + s.mz[q] * ib;
+    } else if constexpr (Law::turns) {
+      a.qx += s.qx[q];
+      a.qy += s.qy[q];
+      a.qz += s.qz[q];
+      b.qx += s.qx[q];
+      b.qy += s.qy[q];
+      b.qz += s.qz[q];
+    }
+  }
+}
+
+template <class Law, bool oneClass, bool accounts>
+void passPairs(const PassContext& context, const PairRange& range, Stage& stage, Accounts& sums) {
+  for (std::int64_t first = 0; first < range.count; first += chunkSize) {
+    const int count = static_cast<int>(range.count - first < chunkSize ? range.count - first : chunkSize);
+    double* memory[6] = {};
+    for (int c = 0; c < Law::stateSize; ++c) memory[c] = range.memory + static_cast<std::size_t>(c) * range.stride + first;
+    gather<Law, oneClass, accounts>(context, range.i + first, range.j + first, count, stage);
+    compute<Law, oneClass, accounts, false>(context, count, stage, memory);
+    if constexpr (accounts) addAccounts(count, stage, sums);
+    scatter<Law>(context, range.i + first, range.j + first, count, stage);
+  }
+}
+
+template <class Law, bool oneClass, bool accounts>
+void passWalls(const PassContext& context, int count, Stage& stage, Accounts& sums) {
+  double* memory[6] = {stage.memory[0], stage.memory[1], stage.memory[2], stage.memory[3], stage.memory[4], stage.memory[5]};
+  compute<Law, oneClass, accounts, true>(context, count, stage, memory);
+  if constexpr (accounts) addAccounts(count, stage, sums);
+}
+
+PairPass pairPassFor(std::size_t law, PassKind kind) {
+  auto pick = [kind]<class Law>() -> PairPass {
+    if (kind.oneClass) return kind.accounts ? &passPairs<Law, true, true> : &passPairs<Law, true, false>;
+    return kind.accounts ? &passPairs<Law, false, true> : &passPairs<Law, false, false>;
+  };
+  return visitLaw(law, pick);
+}
+
+WallPass wallPassFor(std::size_t law, PassKind kind) {
+  auto pick = [kind]<class Law>() -> WallPass {
+    if (kind.oneClass) return kind.accounts ? &passWalls<Law, true, true> : &passWalls<Law, true, false>;
+    return kind.accounts ? &passWalls<Law, false, true> : &passWalls<Law, false, false>;
+  };
+  return visitLaw(law, pick);
+}
+
+}  // namespace
+}  // namespace tsubu::sim

@@ -1,0 +1,57 @@
+#pragma once
+// The bench on which contacts are worked: a chunk of them, gathered from the grains' rows into columns that fit the first-level
+// cache, computed as vectors, and scattered back. Three small loops beat one long one (docs/performance.md).
+
+#include <cstdint>
+
+namespace tsubu::sim {
+
+inline constexpr int chunkSize = 128;
+
+/// Column by column, one entry per contact of the chunk.
+struct alignas(64) Stage {
+  using Column = double[chunkSize];
+
+  // In, for every law: differences i − j and sums i + j of the two rows.
+  Column dx, dy, dz, radiusSum;
+  Column dvx, dvy, dvz, inverseMassSum;
+  // In, for laws with friction.
+  Column sx, sy, sz;        // r_i ω_i + r_j ω_j
+  Column ox, oy, oz;        // ω_i + ω_j
+  // In, for rolling laws.
+  Column rx, ry, rz;        // ω_i − ω_j
+  Column effectiveRadius, inverseSpinInertia;
+  // In, when watched: the smaller radius. In, for walls: the share of a face in a contact that several faces carry.
+  Column smallerRadius, weight;
+  std::int32_t pairClass[chunkSize];  // row × column of the materials; only when there is more than one class
+
+  // Out: force on i, couple (same on both), moment on i.
+  Column fx, fy, fz, qx, qy, qz, mx, my, mz;
+  // Out, when the ledger is kept: see Accounts.
+  Column account[8];
+
+  // Memory of wall contacts, gathered here; pairs are read in place.
+  Column memory[6];
+};
+
+/// What the ledger takes from a pass. Eight lanes, whatever the width of the vectors: the order of the sums is fixed.
+struct Accounts {
+  enum Kind { storedNormal, storedTangential, storedRolling, normal, tangential, friction, rolling, overlap, kinds };
+
+  double lane[kinds][8] = {};
+  std::int64_t touching = 0;
+
+  double sum(Kind kind) const {
+    double total = 0;
+    for (double part : lane[kind]) total += part;
+    return total;
+  }
+  /// For `overlap`: the deepest overlap over the smaller radius.
+  double deepest() const {
+    double most = 0;
+    for (double part : lane[overlap]) most = part > most ? part : most;
+    return most;
+  }
+};
+
+}  // namespace tsubu::sim
