@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <numbers>
 #include <set>
 
 namespace tsubu {
@@ -93,6 +95,37 @@ TEST(Random, EveryBitIsFair) {
     for (std::size_t bit = 0; bit < 64; ++bit) ones[bit] += static_cast<int>(word >> bit & 1);
   }
   for (const int count : ones) EXPECT_NEAR(count, samples / 2.0, 5 * std::sqrt(samples / 4.0));
+}
+
+TEST(Random, ChanceExpIsTrueWithProbabilityExpOfMinusX) {
+  Random random(42, 3);
+  for (const double x : {0.0, 0.1, 0.5, 0.9, 1.0}) {
+    int kept = 0;
+    for (int i = 0; i < samples; ++i) kept += random.chanceExp(x) ? 1 : 0;
+    const double p = std::exp(-x);
+    EXPECT_NEAR(static_cast<double>(kept) / samples, p, 5 * std::sqrt(p * (1 - p) / samples)) << "x = " << x;
+  }
+}
+
+// Chi-squared over bins of a quarter within three deviations and two tails: 25 degrees of freedom, deviation sqrt(50).
+TEST(Random, NormalHasTheDistributionOfTheErrorFunction) {
+  constexpr int bins = 26;
+  std::array<int, bins> counts{};
+  Random random(42, 4);
+  for (int i = 0; i < samples; ++i) {
+    const double place = std::floor((random.normal() + 3) * 4) + 1;
+    ++counts[static_cast<std::size_t>(std::clamp(place, 0.0, bins - 1.0))];
+  }
+  const auto below = [](int bin) {  // probability of what lies below the upper edge of a bin
+    return bin < 0 ? 0.0 : bin >= bins - 1 ? 1.0 : 0.5 * std::erfc(-(-3 + bin / 4.0) / std::numbers::sqrt2);
+  };
+  double chiSquared = 0;
+  for (int bin = 0; bin < bins; ++bin) {
+    const double expected = samples * (below(bin) - below(bin - 1));
+    const double difference = counts[static_cast<std::size_t>(bin)] - expected;
+    chiSquared += difference * difference / expected;
+  }
+  EXPECT_LT(chiSquared, 25 + 5 * std::sqrt(50));
 }
 
 // Moments of the standard normal distribution: 0, 1, 0, 3; the variance of x^k is E x^2k - (E x^k)^2 = 1, 2, 15, 96.

@@ -1,0 +1,76 @@
+#include "core/thread_team.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <string>
+
+namespace tsubu {
+namespace {
+
+class ThreadTeamOf : public testing::TestWithParam<int> {};
+
+TEST_P(ThreadTeamOf, TakesEveryTaskOnce) {
+  ThreadTeam team(GetParam());
+  EXPECT_EQ(team.threads(), GetParam());
+  for (const int tasks : {0, 1, 2, 7, 1000}) {
+    std::vector<int> taken(static_cast<std::size_t>(tasks), 0);
+    std::atomic<bool> known = true;
+    team.run(tasks, [&](int task, int thread) {
+      ++taken[static_cast<std::size_t>(task)];
+      if (thread < 0 || thread >= team.threads()) known = false;
+    });
+    EXPECT_EQ(taken, std::vector<int>(static_cast<std::size_t>(tasks), 1));
+    EXPECT_TRUE(known);
+  }
+}
+
+// What one run wrote, the next one reads, without a lock: run() returns only when all is done and visible. Under the thread
+// sanitizer this is the test that a missing barrier fails.
+TEST_P(ThreadTeamOf, EveryRunSeesWhatTheLastOneWrote) {
+  constexpr int tasks = 16, rounds = 2000;
+  ThreadTeam team(GetParam());
+  std::vector<int> here(tasks, 0), there(tasks, 0);
+  for (int round = 0; round < rounds; ++round) {
+    team.run(tasks, [&](int k, int) { there[static_cast<std::size_t>(k)] = here[static_cast<std::size_t>((k + 1) % tasks)] + 1; });
+    std::swap(here, there);
+  }
+  EXPECT_EQ(here, std::vector<int>(tasks, rounds));
+}
+
+TEST_P(ThreadTeamOf, HandsOnAnExceptionAndGoesOn) {
+  ThreadTeam team(GetParam());
+  for (int round = 0; round < 10; ++round) {
+    try {
+      team.run(20, [](int task, int) {
+        if (task == 13) throw std::runtime_error("task 13");
+      });
+      FAIL() << "the exception got lost";
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(std::string(error.what()), "task 13");
+    }
+    std::atomic<int> taken = 0;
+    team.run(20, [&](int, int) { ++taken; });
+    EXPECT_EQ(taken, 20);
+  }
+}
+
+TEST_P(ThreadTeamOf, WakesAfterASleep) {
+  ThreadTeam team(GetParam());
+  for (int round = 0; round < 3; ++round) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // longer than it looks for work before sleeping
+    std::atomic<int> taken = 0;
+    team.run(5, [&](int, int) { ++taken; });
+    EXPECT_EQ(taken, 5);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, ThreadTeamOf, testing::Values(1, 2, 3, 8));
+
+TEST(ThreadTeam, CanBeMadeAndDroppedIdle) {
+  for (int i = 0; i < 100; ++i) ThreadTeam team(4);
+}
+
+}  // namespace
+}  // namespace tsubu
