@@ -25,9 +25,15 @@ class Bvh {
     walk([&](const Box& box) { return meets(box, a, b); }, visit);
   }
 
-  static bool meets(const Box& box, const Vec3& a, const Vec3& b);
+  /// Calls visit(item) for every box that meets the given one.
+  template <class Visit>
+  void overlapping(const Box& other, Visit&& visit) const {
+    walk([&](const Box& box) { return box.intersects(other); }, visit);
+  }
 
  private:
+  static bool meets(const Box& box, const Vec3& a, const Vec3& b);
+
   struct Node {
     Box box;
     std::uint32_t begin = 0, end = 0;   ///< items of the subtree, in `items_`

@@ -2,6 +2,7 @@
 // From repaired triangles to planar faces, edges and corners.
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/mesh.h"
@@ -71,8 +72,8 @@ struct Features {
   double slack = 0;  ///< m: how far apart two points of the wall may be and still count as one
 };
 
-/// `alone[t]`: triangle t overlaps another one of the same plane and stays a face of its own.
+/// `overlaps`: pairs of coplanar triangles that cover the same area; they never become part of one face.
 /// `tolerance` (m): how far vertices may lie from the plane of their face, and from the line of their edge.
-Features findFeatures(TriangleMesh mesh, const std::vector<char>& alone, double tolerance);
+Features findFeatures(TriangleMesh mesh, const std::vector<std::pair<int, int>>& overlaps, double tolerance);
 
 }  // namespace tsubu::sim

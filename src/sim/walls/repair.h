@@ -1,6 +1,7 @@
 #pragma once
 // Welding, and finding and mending what is wrong with a mesh.
 
+#include <utility>
 #include <vector>
 
 #include "core/mesh.h"
@@ -18,7 +19,7 @@ inline constexpr double flatFraction = 2.5e-7;
 struct RepairedMesh {
   TriangleMesh mesh;             ///< every vertex used, every triangle with an area, no two alike
   std::vector<int> source;       ///< the triangle of the original mesh that each came from
-  std::vector<char> alone;       ///< nonzero for a triangle that covers the same area as a coplanar one before it
+  std::vector<std::pair<int, int>> overlaps;  ///< coplanar triangles of `mesh` that cover the same area, ascending
   double weldTolerance = 0;      ///< m
   double flatTolerance = 0;      ///< m
   std::vector<MeshFault> faults; ///< repaired and harmless ones

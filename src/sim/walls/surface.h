@@ -77,10 +77,11 @@ class Surface {
  private:
   Surface() = default;
 
+  bool closestOnFace(const Face& face, const Vec3& centre, double radius, WallContact& contact) const;
   bool closestOnEdge(const Edge& edge, const Vec3& centre, double radius, WallContact& contact) const;
   bool closestOnCorner(const Corner& corner, const Vec3& centre, double radius, WallContact& contact) const;
-  void insert(const WallContact& contact, double radius, WallContacts& contacts) const;
-  double thicknessAt(std::uint32_t face, const Vec3& point) const;
+  void insert(const WallContact& contact, WallContacts& contacts) const;
+  double thicknessAt(std::uint32_t face, const Vec3& point, double longest) const;
 
   std::string name_;
   std::vector<MeshFault> faults_;
