@@ -173,12 +173,18 @@ std::string Value::description() const {
   return std::visit(Describe{}, content_);
 }
 
+bool Value::knows(std::string_view key) const { return std::find(known_.begin(), known_.end(), key) != known_.end(); }
+
 void Value::know(std::string_view key) const {
-  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
+  if (!knows(key)) known_.emplace_back(key);
 }
 
 const Value* Value::find(std::string_view key) const {
   know(key);
+  return findQuietly(key);
+}
+
+const Value* Value::findQuietly(std::string_view key) const {
   if (!table()) return nullptr;
   for (const auto& [name, member] : *table()) {
     if (name != key) continue;

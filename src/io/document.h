@@ -45,10 +45,17 @@ class Value {
   const Value* find(std::string_view key) const;
   /// Is there such a member? Marks nothing.
   bool has(std::string_view key) const;
-  /// Adds keys that may be written here to the known ones, without reading them.
+  /// Adds a key that may be written here to the known ones, without reading it.
   void know(std::string_view key) const;
+  /// Has this key been asked for?
+  bool knows(std::string_view key) const;
+  /// Has any key been asked for?
+  bool knowsKeys() const { return !known_.empty(); }
+  /// The member as by find(), but the key does not become a known one.
+  const Value* findQuietly(std::string_view key) const;
   /// Gives up on this value: whatever is inside counts as read, because something else is wrong with it.
   void skip() const { skipped_ = true; }
+  bool skipped() const { return skipped_; }
 
  private:
   friend class Document;

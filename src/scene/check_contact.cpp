@@ -1,0 +1,85 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/names.h"
+#include "scene/check.h"
+#include "scene/pairs.h"
+#include "sim/laws/catalogue.h"
+
+namespace tsubu::scene {
+
+namespace {
+
+std::string keyOf(sim::Property property) { return std::string(sim::infoOf(property).key); }
+
+std::string pairName(const Scene& scene, std::pair<std::size_t, std::size_t> pair) {
+  return fmt::format("{}–{}", scene.materials[pair.first].name, scene.materials[pair.second].name);
+}
+
+void checkNeed(const Scene& scene, const Reading& reading, const PositionOf& positionOf, Findings& findings) {
+  const sim::Need& need = reading.need;
+  if (need.optional) return;
+  const auto pairs = touchingPairs(scene);
+  std::vector<std::string> lacking;
+  for (const auto& pair : pairs) {
+    const Properties values = pairProperties(scene, pair.first, pair.second);
+    if (!values[need.property] && !values[need.alternative]) lacking.push_back(pairName(scene, pair));
+  }
+  if (lacking.empty()) return;
+  const std::string what = need.property == need.alternative ? fmt::format("'{}'", keyOf(need.property))
+                                                             : fmt::format("'{}' (or '{}')", keyOf(need.property), keyOf(need.alternative));
+  std::string hint = fmt::format("write it in [pairs]; {}", sim::infoOf(need.property).sentence);
+  if (hint.back() == '.') hint.pop_back();
+  findings.errors.push_back({positionOf({"pairs"}),
+                             fmt::format("The {} law '{}' needs {} for the pair {}{}.", reading.family, reading.law, what, lacking.front(),
+                                         lacking.size() > 1 ? fmt::format(" and {} more", lacking.size() - 1) : std::string()),
+                             std::move(hint)});
+}
+
+// Values that no chosen law reads are not wrong (the law may be switched for a comparison), but worth a word; two that say the same
+// thing in different ways are.
+void checkTable(const Scene& scene, const Properties& properties, const Path& path, const PositionOf& positionOf, Findings& findings) {
+  const auto at = [&](sim::Property property) {
+    Path full = path;
+    full.push_back(keyOf(property));
+    return positionOf(full);
+  };
+  std::array<bool, sim::propertyCount> read{};
+  for (const Reading& reading : readings(scene.contact)) {
+    const sim::Need& need = reading.need;
+    read[static_cast<std::size_t>(need.property)] = read[static_cast<std::size_t>(need.alternative)] = true;
+    if (need.property != need.alternative && properties[need.property] && properties[need.alternative]) {
+      findings.errors.push_back({at(need.alternative),
+                                 fmt::format("'{}' and '{}' say the same in two ways; only one can be given.", keyOf(need.property),
+                                             keyOf(need.alternative)),
+                                 {}});
+    }
+  }
+  for (const sim::PropertyInfo& info : sim::propertyTable()) {
+    if (info.scope != sim::Scope::pair || !properties[info.property] || read[static_cast<std::size_t>(info.property)]) continue;
+    findings.warnings.push_back({at(info.property), fmt::format("None of the chosen contact laws reads '{}'.", info.key), "see [contact]"});
+  }
+}
+
+}  // namespace
+
+void checkContact(const Scene& scene, const PositionOf& positionOf, Findings& findings) {
+  try {
+    sim::lawIndex(scene.contact);
+  } catch (const Error& error) {
+    for (const Diagnostic& what : error.diagnostics()) findings.errors.push_back({positionOf({"contact", "rolling"}), what.message, what.hint});
+  }
+  for (const Reading& reading : readings(scene.contact)) checkNeed(scene, reading, positionOf, findings);
+  checkTable(scene, scene.pairs.all, {"pairs"}, positionOf, findings);
+  for (const Pair& pair : scene.pairs.special) checkTable(scene, pair.properties, {"pairs", pair.first, pair.second}, positionOf, findings);
+  for (const std::size_t i : grainMaterials(scene)) {
+    const Material& material = scene.materials[i];
+    if (material.properties[sim::Property::density]) continue;
+    findings.errors.push_back({positionOf({"materials", material.name}), fmt::format("Grains are made of '{}', which has no density.", material.name),
+                               "for instance density = \"2500 kg/m^3\""});
+  }
+}
+
+}  // namespace tsubu::scene
