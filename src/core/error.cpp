@@ -32,6 +32,6 @@ Error::Error(ErrorKind kind, std::vector<Diagnostic> diagnostics)
     : std::runtime_error(join(diagnostics)), kind_(kind), diagnostics_(std::move(diagnostics)) {}
 
 Error::Error(ErrorKind kind, std::string message, std::string hint)
-    : Error(kind, std::vector<Diagnostic>{{{}, std::move(message), std::move(hint)}}) {}
+    : Error(kind, std::vector<Diagnostic>(1, Diagnostic{SourcePosition(), std::move(message), std::move(hint)})) {}
 
 }  // namespace tsubu

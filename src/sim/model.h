@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/vec.h"
@@ -47,10 +46,10 @@ class PairTable {
   std::vector<PropertyValues> values_;
 };
 
-/// A wall: a shape (in its own frame), how it moves, and what it is made of.
+/// A wall: a surface (in its own frame; an unbounded plane is one too), how it moves, and what it is made of.
 struct Wall {
   std::string name;
-  std::variant<Plane, std::shared_ptr<const Surface>> shape;
+  std::shared_ptr<const Surface> surface;
   WallMotion motion;
   std::uint16_t material = 0;
 };

@@ -38,17 +38,17 @@ struct PassKind {
 };
 
 /// Adds the forces of a range of pairs to the force rows.
-using PairPass = void (*)(const PassContext&, const PairRange&, Stage&, Accounts&);
+using PairKernel = void (*)(const PassContext&, const PairRange&, Stage&, Accounts&);
 /// Computes `count` wall contacts that lie in the stage, memory included.
-using WallPass = void (*)(const PassContext&, int count, Stage&, Accounts&);
+using WallKernel = void (*)(const PassContext&, int count, Stage&, Accounts&);
 
 struct Kernels {
   std::string_view isa;
-  PairPass pairs(std::size_t law, PassKind kind) const { return pairPass(law, kind); }
-  WallPass walls(std::size_t law, PassKind kind) const { return wallPass(law, kind); }
+  PairKernel pairs(std::size_t law, PassKind kind) const { return pairPass(law, kind); }
+  WallKernel walls(std::size_t law, PassKind kind) const { return wallPass(law, kind); }
 
-  PairPass (*pairPass)(std::size_t, PassKind);
-  WallPass (*wallPass)(std::size_t, PassKind);
+  PairKernel (*pairPass)(std::size_t, PassKind);
+  WallKernel (*wallPass)(std::size_t, PassKind);
 };
 
 /// The kernels that this processor can run, the portable ones first, the widest last.

@@ -200,16 +200,16 @@ void passWalls(const PassContext& context, int count, Stage& stage, Accounts& su
   if constexpr (accounts) addAccounts(count, stage, sums);
 }
 
-PairPass pairPassFor(std::size_t law, PassKind kind) {
-  auto pick = [kind]<class Law>() -> PairPass {
+PairKernel pairPassFor(std::size_t law, PassKind kind) {
+  auto pick = [kind]<class Law>() -> PairKernel {
     if (kind.oneClass) return kind.accounts ? &passPairs<Law, true, true> : &passPairs<Law, true, false>;
     return kind.accounts ? &passPairs<Law, false, true> : &passPairs<Law, false, false>;
   };
   return visitLaw(law, pick);
 }
 
-WallPass wallPassFor(std::size_t law, PassKind kind) {
-  auto pick = [kind]<class Law>() -> WallPass {
+WallKernel wallPassFor(std::size_t law, PassKind kind) {
+  auto pick = [kind]<class Law>() -> WallKernel {
     if (kind.oneClass) return kind.accounts ? &passWalls<Law, true, true> : &passWalls<Law, true, false>;
     return kind.accounts ? &passWalls<Law, false, true> : &passWalls<Law, false, false>;
   };

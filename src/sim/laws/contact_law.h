@@ -58,7 +58,7 @@ struct ContactLaw {
       result.couple = cross(c.n, tangential.force);
       if constexpr (withEnergy) {
         const double work = -dot(tangential.force, c.slip) * step.dt;
-        energy.storedTangential = 0.5 * (tangential.storedBefore + tangential.storedAfter);
+        energy.storedTangential = (1 - step.lead) * tangential.storedBefore + step.lead * tangential.storedAfter;
         energy.tangential = tangential.dashpot;
         energy.friction = work - (tangential.storedAfter - tangential.storedBefore) - tangential.dashpot;
       }
@@ -68,7 +68,7 @@ struct ContactLaw {
       result.moment = rolling.moment;
       if constexpr (withEnergy) {
         const double work = -dot(rolling.moment, c.relativeSpin) * step.dt;
-        energy.storedRolling = 0.5 * (rolling.storedBefore + rolling.storedAfter);
+        energy.storedRolling = (1 - step.lead) * rolling.storedBefore + step.lead * rolling.storedAfter;
         energy.rolling = work - (rolling.storedAfter - rolling.storedBefore);
       }
     }

@@ -1,0 +1,83 @@
+#include "core/thread_team.h"
+
+#include <utility>
+
+namespace tsubu {
+
+namespace {
+// A pass follows the last one within microseconds: look for it a while before sleeping. Too long a look would steal the core from
+// the threads that draw and write pictures.
+constexpr int looksBeforeSleep = 2000;
+
+inline void pause() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#endif
+}
+}  // namespace
+
+ThreadTeam::ThreadTeam(int threads) {
+  for (int thread = 1; thread < threads; ++thread) workers_.emplace_back([this, thread] { work(thread); });
+}
+
+ThreadTeam::~ThreadTeam() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+    ++round_;
+  }
+  wake_.notify_all();
+  for (std::thread& worker : workers_) worker.join();
+}
+
+void ThreadTeam::run(int tasks, const std::function<void(int, int)>& task) {
+  if (workers_.empty() || tasks <= 1) {
+    for (int k = 0; k < tasks; ++k) task(k, 0);
+    return;
+  }
+  task_ = &task;
+  tasks_ = tasks;
+  next_ = 0;
+  busy_ = static_cast<int>(workers_.size());
+  {
+    const std::lock_guard lock(mutex_);
+    ++round_;
+  }
+  wake_.notify_all();
+  takeTasks(0);
+  for (int looks = 0; busy_.load(std::memory_order_acquire) > 0; ++looks) {
+    if (looks < looksBeforeSleep)
+      pause();
+    else
+      std::this_thread::yield();
+  }
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
+void ThreadTeam::takeTasks(int thread) {
+  for (int k = next_.fetch_add(1); k < tasks_; k = next_.fetch_add(1)) {
+    try {
+      (*task_)(k, thread);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+    }
+  }
+}
+
+void ThreadTeam::work(int thread) {
+  unsigned seen = 0;
+  for (;;) {
+    for (int looks = 0; looks < looksBeforeSleep && round_.load(std::memory_order_acquire) == seen; ++looks) pause();
+    if (round_.load(std::memory_order_acquire) == seen) {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [&] { return round_.load() != seen; });
+    }
+    ++seen;
+    if (stop_) return;
+    takeTasks(thread);
+    busy_.fetch_sub(1, std::memory_order_release);
+  }
+}
+
+}  // namespace tsubu

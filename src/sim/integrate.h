@@ -1,0 +1,39 @@
+#pragma once
+// The integrators (docs/physics.md, I1–I4). One pass moves the grains, clears their force rows and finds the fastest.
+//
+//   I1  symplectic Euler   v ← v + a Δt,  x ← x + v Δt;                 contacts see v
+//   I2  velocity Verlet    u ← u + a Δt,  x ← x + u Δt;                 contacts see v = u + ½ a Δt
+//
+// u is the velocity at half steps. The velocity of the same instant as x is u + ½ a Δt with the acceleration of that instant, which
+// is not known before the force that needs it; with the last one the error is of second order in Δt, and the dashpot keeps the order
+// of the scheme (with u alone, as is common, it would be first). Both schemes conserve momentum and, without damping, are symplectic.
+// Rotation is the same for L = I ω; a sphere's inertia is a number, so that r ω is advanced: d(r ω)/dt = −(5/2) Q/m.
+//   I3  orientation        q ← exp(½ ω Δt) q with ω at half steps
+
+#include "sim/neighbours/slabs.h"
+#include "sim/state.h"
+
+namespace tsubu::sim {
+
+/// What a pass over grains finds.
+struct Motion {
+  double fastest2 = 0;  ///< (m/s)²: the largest squared speed
+  double travel2 = 0;   ///< largest (distance moved in the step / radius)²; NaN counts as infinite
+};
+
+/// Moves grains [first, last) by one step and clears their forces.
+Motion integrate(State& state, std::int32_t first, std::int32_t last, const Vec3& gravity, double dt);
+
+/// Sets the half-step velocities from the velocities of the rows and the present forces: what velocity Verlet starts with.
+void startVerlet(State& state, const Vec3& gravity, double dt);
+
+/// The velocities of the present instant, forces known: v and r ω.
+struct Velocities {
+  Vec3 v, s;
+};
+Velocities velocitiesNow(const State& state, std::size_t grain, const Vec3& gravity, double dt);
+
+/// exp(½ ω Δt): the rotation by the angle |ω| Δt about ω.
+Quat rotationBy(const Vec3& angle);
+
+}  // namespace tsubu::sim

@@ -1,0 +1,69 @@
+#include "sim/neighbours/slabs.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tsubu::sim {
+
+namespace {
+
+constexpr int mostSlabs = 64;        // enough for every core, few enough for full slabs
+constexpr double mostCells = 4096;   // per axis, within a slab
+
+struct Keyed {
+  std::uint64_t key;
+  std::int32_t place;
+};
+
+// Stable, eleven bits at a time.
+void radixSort(std::vector<Keyed>& items, std::uint64_t largest) {
+  std::vector<Keyed> other(items.size());
+  for (int shift = 0; shift < 64 && (largest >> shift) > 0; shift += 11) {
+    std::array<std::size_t, 2049> start{};
+    for (const Keyed& item : items) ++start[((item.key >> shift) & 2047) + 1];
+    for (std::size_t b = 1; b < start.size(); ++b) start[b] += start[b - 1];
+    for (const Keyed& item : items) other[start[(item.key >> shift) & 2047]++] = item;
+    items.swap(other);
+  }
+}
+
+}  // namespace
+
+Slabs sortIntoSlabs(const std::vector<GrainRow>& rows, double reach, std::vector<std::int32_t>& order) {
+  Box box;
+  for (const GrainRow& row : rows) box.extend(Vec3(row.x, row.y, row.z));
+  Slabs slabs;
+  order.resize(rows.size());
+  if (rows.empty()) {
+    slabs.first = {0, 0};
+    return slabs;
+  }
+  const Vec3 extent = box.sizes();
+  int along = 0;
+  extent.maxCoeff(&along);
+  const int across = (along + 1) % 3, last = (along + 2) % 3;
+  const int count = static_cast<int>(std::clamp(std::floor(extent[along] / reach), 1.0, static_cast<double>(mostSlabs)));
+  const double thickness = std::max(extent[along] / count, reach);
+  const double cell = std::max({reach, extent[across] / mostCells, extent[last] / mostCells});
+
+  std::vector<Keyed> items(rows.size());
+  std::uint64_t largest = 0;
+  for (std::size_t g = 0; g < rows.size(); ++g) {
+    const Vec3 p = Vec3(rows[g].x, rows[g].y, rows[g].z) - box.min();
+    const auto slab = std::min<std::uint64_t>(static_cast<std::uint64_t>(p[along] / thickness), static_cast<std::uint64_t>(count - 1));
+    const auto u = static_cast<std::uint64_t>(p[across] / cell), v = static_cast<std::uint64_t>(p[last] / cell);
+    items[g] = {(slab << 26) | (u << 13) | v, static_cast<std::int32_t>(g)};
+    largest = std::max(largest, items[g].key);
+  }
+  radixSort(items, largest);
+
+  slabs.first.assign(static_cast<std::size_t>(count) + 1, 0);
+  for (std::size_t g = 0; g < items.size(); ++g) {
+    order[g] = items[g].place;
+    ++slabs.first[(items[g].key >> 26) + 1];
+  }
+  for (std::size_t s = 1; s < slabs.first.size(); ++s) slabs.first[s] += slabs.first[s - 1];
+  return slabs;
+}
+
+}  // namespace tsubu::sim

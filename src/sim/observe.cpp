@@ -1,0 +1,257 @@
+// What can be seen of a simulation: the ledger, a survey of contacts, snapshots, the fingerprint of the state.
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/hash.h"
+#include "sim/laws/catalogue.h"
+#include "sim/simulation_impl.h"
+
+namespace tsubu::sim {
+
+namespace {
+
+Vec3 positionOf(const GrainRow& row) { return {row.x, row.y, row.z}; }
+
+std::vector<std::size_t> byId(const State& state) {
+  std::vector<std::size_t> order(state.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return state.id[a] < state.id[b]; });
+  return order;
+}
+
+}  // namespace
+
+double Simulation::Impl::energyOf(std::size_t grain) const {
+  const Velocities now = velocitiesNow(state, grain, model.gravity, model.timeStep);
+  const double m = state.mass(grain);
+  return 0.5 * m * (now.v.squaredNorm() + 0.4 * now.s.squaredNorm()) - m * model.gravity.dot(positionOf(state.rows[grain]));
+}
+
+Ledger Simulation::Impl::ledgerNow() {
+  computeForces();
+  countCrossings();
+  Ledger ledger;
+  ledger.time = time();
+  double mass = 0;
+  Vec3 centre = Vec3::Zero();
+  std::vector<Velocities> now(state.size());
+  const std::vector<std::size_t> order = byId(state);
+  for (const std::size_t g : order) {
+    now[g] = velocitiesNow(state, g, model.gravity, model.timeStep);
+    const double m = state.mass(g);
+    mass += m;
+    centre += m * positionOf(state.rows[g]);
+    ledger.momentum += m * now[g].v;
+  }
+  if (mass > 0) centre /= mass;
+  const Vec3 bulk = mass > 0 ? Vec3(ledger.momentum / mass) : Vec3(Vec3::Zero());
+  ledger.kineticBulk = 0.5 * mass * bulk.squaredNorm();
+  ledger.angularMomentumBulk = centre.cross(ledger.momentum);
+  for (const std::size_t g : order) {
+    const double m = state.mass(g), r = state.rows[g].radius;
+    const Vec3 x = positionOf(state.rows[g]);
+    ledger.kineticFluctuation += 0.5 * m * (now[g].v - bulk).squaredNorm();
+    ledger.kineticRotation += 0.2 * m * now[g].s.squaredNorm();
+    ledger.gravitational -= m * model.gravity.dot(x);
+    ledger.angularMomentumRest += m * (x - centre).cross(now[g].v - bulk) + (0.4 * m * r) * now[g].s;
+  }
+
+  // The accounts of this step run half a step beyond the present instant in velocity Verlet (memory lives at half steps).
+  std::array<double, Accounts::kinds> step{};
+  double work = 0;
+  for (const Accounts& accounts : last)
+    for (int k = 0; k < Accounts::overlap; ++k) step[static_cast<std::size_t>(k)] += accounts.sum(static_cast<Accounts::Kind>(k));
+  for (const SlabWalls& slab : walls.slabs()) work += slab.work - (1 - lead) * slab.lastWork;
+  const auto dissipated = [&](Accounts::Kind kind) {
+    const auto k = static_cast<std::size_t>(kind);
+    return total[k] - (1 - lead) * step[k];
+  };
+  ledger.elasticNormal = step[Accounts::storedNormal];
+  ledger.elasticTangential = step[Accounts::storedTangential];
+  ledger.elasticRolling = step[Accounts::storedRolling];
+  ledger.dissipatedNormal = dissipated(Accounts::normal);
+  ledger.dissipatedTangential = dissipated(Accounts::tangential);
+  ledger.dissipatedFriction = dissipated(Accounts::friction);
+  ledger.dissipatedRolling = dissipated(Accounts::rolling);
+  ledger.workWalls = work;
+  ledger.inserted = insertedEnergy;
+  ledger.removed = removedEnergy;
+  ledger.initial = initialEnergy;
+
+  const Ledger& before = lastLedger;
+  const double motion = ledger.kinetic() + ledger.elastic() - before.kinetic() - before.elastic();
+  const double height = ledger.gravitational - before.gravitational - (ledger.inserted - before.inserted) + (ledger.removed - before.removed);
+  turnover += std::max({std::abs(motion), std::abs(height), std::abs(ledger.dissipated() - before.dissipated()),
+                        std::abs(ledger.workWalls - before.workWalls)});
+  ledger.turnover = turnover;
+  lastLedger = ledger;
+  return ledger;
+}
+
+Simulation::Impl::DeepestContact Simulation::Impl::surveyContacts() const {
+  DeepestContact deepest;
+  const auto meet = [&](double overlap, std::size_t grain, const auto& nameOfPartner) {
+    ++deepest.touching;
+    if (overlap > deepest.overlap) deepest = {deepest.touching, overlap, grain, nameOfPartner()};
+  };
+  for (const SlabPairs& slab : pairs.slabs()) {
+    for (std::size_t k = 0; k < slab.i.size(); ++k) {
+      const auto i = static_cast<std::size_t>(slab.i[k]), j = static_cast<std::size_t>(slab.j[k]);
+      const GrainRow &a = state.rows[i], &b = state.rows[j];
+      const double overlap = a.radius + b.radius - (positionOf(a) - positionOf(b)).norm();
+      if (overlap > 0) meet(overlap / std::min(a.radius, b.radius), i, [&] { return fmt::format("grain {}", state.id[j]); });
+    }
+  }
+  WallContacts contacts;
+  for (const SlabWalls& slab : walls.slabs()) {
+    for (const WallGroup& group : slab.groups) {
+      const GrainRow& row = state.rows[static_cast<std::size_t>(group.grain)];
+      const Wall& wall = model.walls[group.wall];
+      const std::span<const std::uint32_t> features(slab.features.data() + group.first, static_cast<std::size_t>(group.last - group.first));
+      wall.surface->contacts(walls.places()[group.wall].pose.toLocal(positionOf(row)), row.radius, features, contacts);
+      for (const WallContact& contact : contacts)
+        meet((row.radius - contact.distance) / row.radius, static_cast<std::size_t>(group.grain),
+             [&] { return fmt::format("wall '{}'", wall.name); });
+    }
+  }
+  return deepest;
+}
+
+ContactSummary Simulation::Impl::contactsNow() {
+  computeForces();
+  const DeepestContact deepest = surveyContacts();
+  return {deepest.touching, deepest.overlap};
+}
+
+// Normal forces depend on the present alone: they can be had at any time without touching the memory of contacts.
+void Simulation::Impl::addLoads(std::vector<double>& load) const {
+  auto add = [&]<class Law>() {
+    const auto* const constants = reinterpret_cast<const typename Law::Pair*>(pairConstants.data());
+    const auto forceOf = [&](const Vec3& d, double radiusSum, const Vec3& dv, double mass, double radius, std::size_t pair) {
+      Contact c{};
+      const double distance = d.norm();
+      const Vec3 n = d / std::max(distance, tiny);
+      c.n = {n.x(), n.y(), n.z()};
+      c.overlap = radiusSum - distance;
+      c.separationSpeed = dv.dot(n);
+      c.effectiveMass = mass;
+      c.effectiveRadius = radius;
+      return c.overlap > 0 ? std::abs(Law::Normal::force(constants[pair].normal, c).force) : 0.0;
+    };
+    const std::size_t n = model.materials.size();
+    for (const SlabPairs& slab : pairs.slabs()) {
+      for (std::size_t k = 0; k < slab.i.size(); ++k) {
+        const auto i = static_cast<std::size_t>(slab.i[k]), j = static_cast<std::size_t>(slab.j[k]);
+        const GrainRow &a = state.rows[i], &b = state.rows[j];
+        const double force = forceOf(positionOf(a) - positionOf(b), a.radius + b.radius, Vec3(a.vx - b.vx, a.vy - b.vy, a.vz - b.vz),
+                                     1 / (a.inverseMass + b.inverseMass), 1 / (a.inverseRadius + b.inverseRadius),
+                                     state.material[i] * n + state.material[j]);
+        load[i] += force;
+        load[j] += force;
+      }
+    }
+    WallContacts contacts;
+    for (const SlabWalls& slab : walls.slabs()) {
+      for (const WallGroup& group : slab.groups) {
+        const auto g = static_cast<std::size_t>(group.grain);
+        const GrainRow& row = state.rows[g];
+        const WallPlace& place = walls.places()[group.wall];
+        const std::span<const std::uint32_t> features(slab.features.data() + group.first, static_cast<std::size_t>(group.last - group.first));
+        model.walls[group.wall].surface->contacts(place.pose.toLocal(positionOf(row)), row.radius, features, contacts);
+        for (const WallContact& contact : contacts) {
+          const Vec3 velocity = place.twist.at(place.pose.toWorld(contact.point));
+          load[g] += contact.weight * forceOf(contact.distance * (place.pose.rotation * contact.normal), row.radius,
+                                              Vec3(row.vx, row.vy, row.vz) - velocity, 1 / row.inverseMass, row.radius,
+                                              state.material[g] * n + model.walls[group.wall].material);
+        }
+      }
+    }
+  };
+  visitLaw(law, add);
+}
+
+void Simulation::Impl::fill(Snapshot& snapshot) {
+  computeForces();
+  countCrossings();
+  snapshot = Snapshot{};
+  snapshot.time = time();
+  snapshot.step = steps;
+  std::vector<double> load;
+  if (model.load) {
+    load.assign(state.size(), 0.0);
+    addLoads(load);
+  }
+  for (const std::size_t g : byId(state)) {
+    const GrainRow& row = state.rows[g];
+    const Velocities now = velocitiesNow(state, g, model.gravity, model.timeStep);
+    snapshot.id.push_back(state.id[g]);
+    snapshot.material.push_back(state.material[g]);
+    snapshot.radius.push_back(row.radius);
+    snapshot.position.push_back(positionOf(row));
+    snapshot.velocity.push_back(now.v);
+    if (state.turns) {
+      snapshot.angularVelocity.push_back(now.s * row.inverseRadius);
+      snapshot.orientation.push_back(state.orientation[g]);
+    }
+    if (model.load) snapshot.load.push_back(load[g]);
+  }
+  for (const WallPlace& place : walls.places()) snapshot.walls.push_back(place.pose);
+}
+
+// Contacts in any order: the hash of each, keyed by its two ids and seen from the lower one, added up.
+std::uint64_t Simulation::Impl::contactHash() const {
+  std::uint64_t sum = 0;
+  const auto c = static_cast<std::size_t>(stateSize);
+  for (const SlabPairs& slab : pairs.slabs()) {
+    for (std::size_t k = 0; k < slab.i.size() && c > 0; ++k) {
+      std::uint64_t a = state.id[static_cast<std::size_t>(slab.i[k])], b = state.id[static_cast<std::size_t>(slab.j[k])];
+      const double sign = a < b ? 1 : -1;
+      Hash hash;
+      hash.add(std::min(a, b));
+      hash.add(std::max(a, b));
+      bool any = false;
+      for (std::size_t component = 0; component < c; ++component) {
+        const double value = slab.memory[component * slab.stride + k];
+        any = any || value != 0;
+        hash.add(value == 0 ? 0.0 : sign * value);
+      }
+      if (any) sum += hash.value();
+    }
+  }
+  for (const SlabWalls& slab : walls.slabs()) {
+    for (const WallGroup& group : slab.groups) {
+      for (std::int32_t w = group.first; w < group.last; ++w) {
+        const WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(w)];
+        if (!candidate.touching) continue;
+        Hash hash;
+        hash.add(std::uint64_t{state.id[static_cast<std::size_t>(group.grain)]});
+        hash.add((std::uint64_t{group.wall} << 32) | candidate.feature);
+        for (std::size_t component = 0; component < c; ++component) hash.add(candidate.memory[component]);
+        sum += hash.value();
+      }
+    }
+  }
+  return sum;
+}
+
+std::uint64_t Simulation::Impl::stateHash() {
+  computeForces();
+  Hash hash;
+  for (const std::size_t g : byId(state)) {
+    const GrainRow& row = state.rows[g];
+    hash.add(std::uint64_t{state.id[g]});
+    for (const double value : {row.x, row.y, row.z, row.vx, row.vy, row.vz, row.sx, row.sy, row.sz}) hash.add(value);
+    if (state.verlet)
+      for (const double value : {state.half[g].vx, state.half[g].vy, state.half[g].vz}) hash.add(value);
+    if (state.turns)
+      for (const double value : state.orientation[g].coeffs()) hash.add(value);
+  }
+  hash.add(contactHash());
+  return hash.value();
+}
+
+}  // namespace tsubu::sim

@@ -1,0 +1,31 @@
+#pragma once
+// From materials to the constants that laws use, and what else must be known of a law without its type.
+
+#include <vector>
+
+#include "sim/model.h"
+
+namespace tsubu::sim {
+
+struct LawTraits {
+  int stateSize;  ///< doubles of memory per contact
+  bool turns, rolls;
+};
+LawTraits lawTraits(std::size_t law);
+
+/// Which pairs of materials can meet: grains and streams with each other and with walls. materials × materials.
+std::vector<char> pairsThatMeet(const Model& model);
+
+/// \brief Law::Pair for every pair of materials, row by row, as bytes.
+/// Throws Error(scene) that names law, pair and property when a pair that can meet lacks what the law reads.
+std::vector<unsigned char> preparePairs(const Model& model, std::size_t law);
+
+/// What decides how long a step may be for one pair of materials.
+struct PairStiffness {
+  double stiffness;        ///< N/m: the larger of k_n and 7/2 k_t, which a sphere's rotation makes of a tangential spring
+  double normalStiffness;  ///< N/m
+  double damping;          ///< kg/s of the normal dashpot
+};
+PairStiffness pairStiffness(const Model& model, std::size_t law, std::size_t a, std::size_t b, double effectiveMass);
+
+}  // namespace tsubu::sim

@@ -1,0 +1,43 @@
+// What a model will do and what it costs, without running it.
+
+#include <fmt/format.h>
+
+#include "sim/laws/catalogue.h"
+#include "sim/pair_constants.h"
+#include "sim/simulation.h"
+#include "sim/state.h"
+
+namespace tsubu::sim {
+
+Plan Simulation::plan(const Model& model) {
+  const std::size_t law = lawIndex(model.contact);
+  const LawTraits traits = lawTraits(law);
+  const bool verlet = model.integrator == Integrator::velocityVerlet;
+  Plan plan;
+  const auto item = [&](bool modelled, std::string what) { (modelled ? plan.modelled : plan.notModelled).push_back(std::move(what)); };
+  item(true, fmt::format("normal contact: {}{}", model.contact.normal, model.contact.tension ? ", with tension" : ""));
+  item(traits.turns, traits.turns ? fmt::format("friction: {}", model.contact.tangential) : "friction");
+  item(traits.rolls, traits.rolls ? fmt::format("rolling resistance: {}", model.contact.rolling) : "rolling resistance");
+  item(traits.turns, "rotation and orientation");
+  item(model.gravity.norm() > 0, "gravity");
+  item(!model.walls.empty(), "walls");
+  item(!model.streams.empty(), "inlets");
+  item(!model.sinks.empty(), "sinks");
+  item(!model.counters.empty(), "counters");
+  item(model.ledger, "energy ledger");
+
+  if (!model.streams.empty()) plan.passes.push_back("arrivals");
+  if (!model.sinks.empty()) plan.passes.push_back("sinks");
+  plan.passes.push_back("neighbour lists (when grains have moved)");
+  plan.passes.push_back("pair contacts");
+  if (!model.walls.empty()) plan.passes.push_back("wall contacts");
+  plan.passes.push_back(verlet ? "integrate: velocity Verlet" : "integrate: symplectic Euler");
+
+  plan.bytesPerGrain = sizeof(GrainRow) + sizeof(ForceRow) + (verlet ? sizeof(HalfStepRow) : 0) + (traits.turns ? sizeof(Quat) : 0) +
+                       sizeof(std::uint16_t) + sizeof(std::uint32_t) + (model.counters.empty() ? 0 : sizeof(std::uint32_t)) + sizeof(Vec3);
+  plan.bytesPerContact = static_cast<std::size_t>(traits.stateSize) * sizeof(double);
+  plan.bytesPerListedPair = 5 * sizeof(std::int32_t);
+  return plan;
+}
+
+}  // namespace tsubu::sim

@@ -1,0 +1,170 @@
+// Who comes and goes: arrivals at inlets, grains taken out by sinks, grains that are lost, and those that cross a counter.
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "sim/simulation_impl.h"
+
+namespace tsubu::sim {
+
+namespace {
+
+Vec3 positionOf(const GrainRow& row) { return {row.x, row.y, row.z}; }
+
+// Inlets look for room this often: in the time in which a grain moves this share of its radius.
+constexpr double arrivalTravel = 0.25;
+
+}  // namespace
+
+void Simulation::Impl::prepareArrivals() {
+  double interval = std::numeric_limits<double>::infinity();
+  for (const Stream& stream : model.streams) {
+    const double r = stream.radii.smallest();
+    const double speed = stream.velocity.norm() + std::sqrt(2 * model.gravity.norm() * r);
+    if (speed > 0) interval = std::min(interval, arrivalTravel * r / speed);
+  }
+  if (std::isfinite(interval)) stepsBetweenArrivals = static_cast<std::uint64_t>(std::max(1.0, std::floor(interval / model.timeStep)));
+}
+
+// A box around everything that is there, three times its size: a grain outside has left the scene.
+void Simulation::Impl::chooseDomain() {
+  if (!model.domain.isEmpty()) return;
+  Box box;
+  for (const GrainRow& row : state.rows) box.extend(positionOf(row));
+  for (const Stream& stream : model.streams) box.extend(stream.region.bounds());
+  for (const Wall& wall : model.walls)
+    if (wall.surface->bounds().sizes().allFinite()) box.extend(wall.surface->bounds());
+  for (const Sink& sink : model.sinks) {
+    const Box bounds = sink.region.bounds();
+    for (int axis = 0; axis < 3 && !box.isEmpty(); ++axis) {
+      for (const double edge : {bounds.min()[axis], bounds.max()[axis]}) {
+        Vec3 point = box.center();
+        point[axis] = edge;
+        if (std::isfinite(edge)) box.extend(point);
+      }
+    }
+  }
+  if (box.isEmpty()) box.extend(Vec3(Vec3::Zero()));
+  const double margin = std::max(box.sizes().norm(), 1e-3);
+  model.domain = Box(box.min() - Vec3::Constant(margin), box.max() + Vec3::Constant(margin));
+}
+
+std::uint32_t Simulation::Impl::sidesOf(const Vec3& position) const {
+  std::uint32_t sides = 0;
+  for (std::size_t c = 0; c < model.counters.size(); ++c)
+    if ((position - model.counters[c].point).dot(model.counters[c].normal) > 0) sides |= 1U << c;
+  return sides;
+}
+
+void Simulation::Impl::addGrain(const Grain& grain) {
+  state.add(grain, model.materials[grain.material].values[Property::density], 0.5 * model.timeStep * model.gravity);
+  if (!model.counters.empty()) state.sides.push_back(sidesOf(grain.position));
+  rebuildNeeded = true;
+}
+
+void Simulation::Impl::countCrossings() {
+  if (model.counters.empty()) return;
+  for (std::size_t g = 0; g < state.size(); ++g) {
+    const Vec3 x = positionOf(state.rows[g]);
+    const std::uint32_t now = sidesOf(x), changed = now ^ state.sides[g];
+    if (changed == 0) continue;
+    state.sides[g] = now;
+    for (std::size_t c = 0; c < model.counters.size(); ++c) {
+      if ((changed >> c & 1U) == 0) continue;
+      const Counter& counter = model.counters[c];
+      const Vec3 offset = x - counter.point;
+      if ((offset - offset.dot(counter.normal) * counter.normal).norm() > counter.radius) continue;
+      counts.crossed[c] += (now >> c & 1U) ? 1 : -1;
+    }
+  }
+}
+
+void Simulation::Impl::changePopulation() {
+  bool anyTunnelled = false;
+  for (const SlabWalls& slab : walls.slabs()) anyTunnelled = anyTunnelled || !slab.tunnelled.empty();
+  if (anyTunnelled || listsAreDue()) {
+    countCrossings();
+    leave();
+  }
+  if (!model.streams.empty() && steps % stepsBetweenArrivals == 0) arrive();
+}
+
+void Simulation::Impl::lose(std::size_t grain, const std::string& why, std::vector<char>& goes) {
+  if (goes[grain]) return;
+  goes[grain] = 1;
+  ++counts.lost;
+  lost.push_back({state.id[grain], positionOf(state.rows[grain]), time(), why});
+  if (counts.lost <= 10) warnings.push_back(fmt::format("Lost: {}, {}.", describe(grain), why));
+  if (counts.lost == 11) warnings.push_back("More grains are lost; run.json lists them.");
+}
+
+void Simulation::Impl::leave() {
+  std::vector<char> goes(state.size(), 0);
+  for (SlabWalls& slab : walls.slabs()) {
+    for (const std::int32_t g : slab.tunnelled) lose(static_cast<std::size_t>(g), "went through a wall", goes);
+    slab.tunnelled.clear();
+  }
+  for (std::size_t g = 0; g < state.size(); ++g) {
+    const Vec3 x = positionOf(state.rows[g]);
+    if (!model.domain.contains(x)) lose(g, "left the domain", goes);
+    for (const Sink& sink : model.sinks) {
+      if (goes[g] || !sink.region.contains(x)) continue;
+      goes[g] = 1;
+      ++counts.removed;
+    }
+  }
+  if (std::find(goes.begin(), goes.end(), 1) != goes.end()) removeGrains(goes);
+}
+
+void Simulation::Impl::removeGrains(const std::vector<char>& goes) {
+  std::vector<std::int32_t> stay;
+  std::vector<std::int32_t> place(state.size(), -1);
+  for (std::size_t g = 0; g < state.size(); ++g) {
+    if (goes[g]) {
+      removedEnergy += energyOf(g);
+      continue;
+    }
+    place[g] = static_cast<std::int32_t>(stay.size());
+    stay.push_back(static_cast<std::int32_t>(g));
+  }
+  state.reorder(stay);
+  placeAfterRemoval = std::move(place);
+  rebuildNeeded = true;
+}
+
+void Simulation::Impl::arrive() {
+  std::vector<Grain> arrivals;
+  std::vector<std::int32_t> near;
+  const IsFree isFree = [&](const Vec3& centre, double radius) {
+    for (const Grain& grain : arrivals) {
+      const double cut = grain.radius + radius;
+      if ((grain.position - centre).squaredNorm() < cut * cut) return false;
+    }
+    near.clear();
+    // The grid knows the cells as they were at the last rebuild; the skin covers what grains have moved since.
+    if (rebuildNeeded) {
+      for (std::size_t g = 0; g < state.size(); ++g) near.push_back(static_cast<std::int32_t>(g));
+    } else {
+      grid.near(centre, radius, -1, true, near);
+    }
+    for (const std::int32_t g : near) {
+      const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
+      const double cut = row.radius + radius;
+      if ((positionOf(row) - centre).squaredNorm() < cut * cut) return false;
+    }
+    return !walls.touches(centre, radius);
+  };
+  for (std::size_t s = 0; s < model.streams.size(); ++s) {
+    const Stream& stream = model.streams[s];
+    stream.emit(model.seed, s, model.materials[stream.material].values[Property::density], time(), isFree, streams[s], arrivals);
+  }
+  for (const Grain& grain : arrivals) {
+    addGrain(grain);
+    insertedEnergy += energyOf(state.size() - 1);
+  }
+  counts.inserted += arrivals.size();
+}
+
+}  // namespace tsubu::sim

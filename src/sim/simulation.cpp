@@ -1,0 +1,256 @@
+#include "sim/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "sim/laws/catalogue.h"
+#include "sim/pair_constants.h"
+#include "sim/simulation_impl.h"
+
+namespace tsubu::sim {
+
+namespace {
+
+// The watch needs accounts; without a ledger it looks only so often. An overlap lasts for tens of steps.
+constexpr std::uint64_t watchEvery = 16;
+
+// Neighbour lists: skins in terms of how far the fastest grain moves in a step, bounded in terms of the smallest radius.
+constexpr double outerSteps = 60, innerSteps = 6;
+constexpr double leastOuter = 0.2, mostOuter = 0.8, leastInner = 0.02, mostInner = 0.25;
+
+}  // namespace
+
+Simulation::Impl::Impl(Model given, int threads)
+    : model(std::move(given)),
+      team(threads),
+      law(lawIndex(model.contact)),
+      stateSize(lawTraits(law).stateSize),
+      pairs(stateSize),
+      walls(model.walls, stateSize, lawTraits(law).turns, lawTraits(law).rolls),
+      stages(static_cast<std::size_t>(threads)) {
+  prepareLaws();
+  prepareState();
+  if (model.ledger) {
+    computeForces();
+    const Ledger start = ledgerNow();
+    initialEnergy = start.mechanical() + start.dissipated() - start.workWalls;
+    turnover = 0;
+  }
+}
+
+void Simulation::Impl::prepareLaws() {
+  pairConstants = preparePairs(model, law);
+  oneClass = model.materials.size() == 1;
+  lead = model.integrator == Integrator::velocityVerlet ? 0.5 : 1.0;
+  if (!(model.timeStep > 0)) throw Error(ErrorKind::scene, "The time step must be positive.");
+  for (const Wall& wall : model.walls) {
+    const auto plane = wall.surface->asPlane();
+    if (!plane || wall.motion.still()) continue;
+    for (const MotionPart& part : wall.motion.parts()) {
+      const bool turnsInItself = !std::holds_alternative<Rocking>(part.kind) &&
+                                 (!std::holds_alternative<Rotation>(part.kind) ||
+                                  std::get<Rotation>(part.kind).axis.normalized().cross(plane->normal).norm() < 1e-9);
+      if (!turnsInItself)
+        throw Error(ErrorKind::scene, fmt::format("Wall '{}' is an unbounded plane and cannot tilt.", wall.name),
+                    "use a mesh, or turn it about its normal");
+    }
+  }
+}
+
+void Simulation::Impl::prepareState() {
+  state.verlet = model.integrator == Integrator::velocityVerlet;
+  state.turns = lawTraits(law).turns;
+  for (const Grain& grain : model.grains)
+    state.add(grain, model.materials[grain.material].values[Property::density], 0.5 * model.timeStep * model.gravity);
+  model.grains.clear();
+  streams.resize(model.streams.size());
+  counts.crossed.assign(model.counters.size(), 0);
+  prepareArrivals();
+  chooseDomain();
+}
+
+PassContext Simulation::Impl::context() {
+  return {state.rows.data(),    state.forces.data(), state.material.data(), model.materials.size(),
+          pairConstants.data(), {model.timeStep, lead}};
+}
+
+void Simulation::Impl::step() {
+  computeForces();
+  move();
+}
+
+void Simulation::Impl::computeForces() {
+  if (forcesKnown) return;
+  const double wallStep = walls.moveTo(time(), model.timeStep);
+  changePopulation();
+  refreshLists();
+
+  accountsKnown = model.ledger || steps % watchEvery == 0;
+  const PassKind kind{oneClass, accountsKnown};
+  const PairKernel pairKernel = kernels().pairs(law, kind);
+  const WallKernel wallKernel = kernels().walls(law, kind);
+  const PassContext world = context();
+  last.assign(static_cast<std::size_t>(slabs.count()), Accounts{});
+  for (int parity = 0; parity < 2; ++parity) {
+    team.run((slabs.count() + 1 - parity) / 2, [&](int task, int thread) {
+      const int slab = 2 * task + parity;
+      const auto s = static_cast<std::size_t>(slab);
+      SlabPairs& list = pairs.slabs()[s];
+      Stage& stage = stages[static_cast<std::size_t>(thread)];
+      pairKernel(world, {list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.data(), list.stride}, stage,
+                 last[s]);
+      walls.evaluateSlab(slab, world, wallKernel, accountsKnown, stage, last[s]);
+    });
+  }
+  if (model.ledger)
+    for (const Accounts& accounts : last)
+      for (int k = Accounts::normal; k <= Accounts::rolling; ++k)
+        total[static_cast<std::size_t>(k)] += accounts.sum(static_cast<Accounts::Kind>(k));
+  wallTravel += wallStep;
+  if (steps == 0 && state.verlet) startVerlet(state, model.gravity, model.timeStep);
+  forcesKnown = true;
+  if (accountsKnown) watchOverlap();
+}
+
+void Simulation::Impl::move() {
+  std::vector<Motion>& found = motions;
+  found.assign(static_cast<std::size_t>(slabs.count()), Motion{});
+  team.run(slabs.count(), [&](int slab, int) {
+    found[static_cast<std::size_t>(slab)] = integrate(state, slabs.begin(slab), slabs.end(slab), model.gravity, model.timeStep);
+  });
+  Motion most;
+  for (const Motion& motion : found) {
+    most.fastest2 = std::max(most.fastest2, motion.fastest2);
+    most.travel2 = std::max(most.travel2, motion.travel2);
+  }
+  fastest = std::sqrt(most.fastest2);
+  innerTravel += fastest * model.timeStep;
+  outerTravel += fastest * model.timeStep;
+  ++steps;
+  grainSteps += state.size();
+  forcesKnown = false;
+  if (!(most.travel2 <= model.watch.travelLimit * model.watch.travelLimit)) watchTravel();
+}
+
+// An outer list holds as long as no pair that the inner list must have can be missing from it.
+bool Simulation::Impl::outerListsHold() {
+  if (2 * outerTravel + innerSkin <= outerSkin) return true;
+  // The sum of the largest steps says too much: look how far grains really are from where they were.
+  double most2 = 0;
+  for (std::size_t g = 0; g < state.size(); ++g) {
+    const GrainRow& row = state.rows[g];
+    most2 = std::max(most2, (Vec3(row.x, row.y, row.z) - state.reference[g]).squaredNorm());
+  }
+  outerTravel = std::sqrt(most2);
+  return 2 * outerTravel + innerSkin <= 0.9 * outerSkin;
+}
+
+void Simulation::Impl::refreshLists() {
+  if (!listsAreDue()) return;
+  if (rebuildNeeded || 2 * wallTravel > outerSkin || !outerListsHold()) {
+    rebuildLists();
+  } else {
+    pairs.refilter(state, innerSkin, team);
+  }
+  innerTravel = 0;
+}
+
+void Simulation::Impl::chooseSkins() {
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+  for (const GrainRow& row : state.rows) {
+    smallest = std::min(smallest, row.radius);
+    largest = std::max(largest, row.radius);
+  }
+  if (state.rows.empty()) smallest = largest = 1;
+  const double stride = 2 * fastest * model.timeStep;
+  outerSkin = model.skin > 0 ? model.skin : std::clamp(outerSteps * stride, leastOuter * smallest, mostOuter * smallest);
+  innerSkin = std::min(std::clamp(innerSteps * stride, leastInner * smallest, mostInner * smallest), 0.5 * outerSkin);
+  reach = 2 * largest + outerSkin;
+}
+
+void Simulation::Impl::rebuildLists() {
+  chooseSkins();
+  pairs.rememberContacts();
+  std::vector<std::int32_t> order;
+  slabs = sortIntoSlabs(state.rows, reach, order);
+  std::vector<std::int32_t> newPlace(order.size());
+  for (std::size_t g = 0; g < order.size(); ++g) newPlace[static_cast<std::size_t>(order[g])] = static_cast<std::int32_t>(g);
+  state.reorder(order);
+  if (!placeAfterRemoval.empty()) {
+    for (std::int32_t& place : placeAfterRemoval)
+      if (place >= 0) place = newPlace[static_cast<std::size_t>(place)];
+    newPlace.swap(placeAfterRemoval);
+    placeAfterRemoval.clear();
+  }
+  grid.build(state.rows, outerSkin);
+  pairs.build(state, slabs, grid, innerSkin, newPlace, team);
+  walls.build(state, slabs, outerSkin, newPlace);
+  state.reference.resize(state.size());
+  for (std::size_t g = 0; g < state.size(); ++g) state.reference[g] = {state.rows[g].x, state.rows[g].y, state.rows[g].z};
+  outerTravel = wallTravel = 0;
+  rebuildNeeded = false;
+}
+
+void Simulation::Impl::complain(const std::string& sentence, const std::string& hint) {
+  if (model.watch.stop) throw Error(ErrorKind::simulation, sentence, hint);
+  warnings.push_back(sentence + " (" + hint + ")");
+}
+
+std::string Simulation::Impl::describe(std::size_t grain) const {
+  const GrainRow& row = state.rows[grain];
+  return fmt::format("grain {} at ({:.6g}, {:.6g}, {:.6g}) m, t = {:.6g} s (step {})", state.id[grain], row.x, row.y, row.z, time(), steps);
+}
+
+void Simulation::Impl::watchTravel() {
+  for (std::size_t g = 0; g < state.size(); ++g) {
+    const GrainRow& row = state.rows[g];
+    const double speed = Vec3(row.vx, row.vy, row.vz).norm();
+    if (!std::isfinite(speed + row.x + row.y + row.z))
+      throw Error(ErrorKind::simulation, fmt::format("Not a number: {}.", describe(g)),
+                  "the step is probably too long for the stiffest contact: lower safety or give a smaller time_step");
+    if (warnedTravel_ || !(speed * model.timeStep > model.watch.travelLimit * row.radius)) continue;
+    warnedTravel_ = true;
+    complain(fmt::format("A grain moves {:.2g} of its radius in one step, more than {:.2g}: {}, speed {:.4g} m/s.",
+                         speed * model.timeStep / row.radius, model.watch.travelLimit, describe(g), speed),
+             "it may pass through another grain or a wall: use a smaller time_step, or look for what threw it");
+  }
+}
+
+void Simulation::Impl::watchOverlap() {
+  double deepest = 0;
+  for (const Accounts& accounts : last) deepest = std::max(deepest, accounts.deepest());
+  if (!(deepest > model.watch.overlapLimit) || warnedOverlap_) return;
+  warnedOverlap_ = true;
+  const DeepestContact contact = surveyContacts();
+  complain(fmt::format("Overlap of {:.3g} of the radius, more than {:.3g}: {}, with {}.", deepest, model.watch.overlapLimit,
+                       describe(contact.grain), contact.partner),
+           steps == 0 ? "grains or walls overlap at the start: check their places"
+                      : "the contact is too soft for the load or the speed: raise normal_stiffness");
+}
+
+Simulation::Simulation(Model model, int threads) : impl_(std::make_unique<Impl>(std::move(model), threads)) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+void Simulation::advance(std::uint64_t steps) {
+  for (std::uint64_t k = 0; k < steps; ++k) impl_->step();
+}
+
+double Simulation::time() const { return impl_->time(); }
+double Simulation::timeStep() const { return impl_->model.timeStep; }
+std::uint64_t Simulation::steps() const { return impl_->steps; }
+std::size_t Simulation::grains() const { return impl_->state.size(); }
+const Counts& Simulation::counts() const { return impl_->counts; }
+const std::vector<LostGrain>& Simulation::lostGrains() const { return impl_->lost; }
+const std::vector<std::string>& Simulation::warnings() const { return impl_->warnings; }
+std::uint64_t Simulation::grainSteps() const { return impl_->grainSteps; }
+Ledger Simulation::ledger() { return impl_->ledgerNow(); }
+ContactSummary Simulation::contacts() { return impl_->contactsNow(); }
+void Simulation::fill(Snapshot& snapshot) { impl_->fill(snapshot); }
+std::uint64_t Simulation::stateHash() { return impl_->stateHash(); }
+
+}  // namespace tsubu::sim

@@ -1,0 +1,119 @@
+#pragma once
+// The inside of a Simulation, shared by the files that implement it: the step (simulation.cpp), who comes and goes (population.cpp)
+// and what can be seen (observe.cpp).
+
+#include <array>
+#include <limits>
+
+#include "core/thread_team.h"
+#include "sim/integrate.h"
+#include "sim/kernel/kernels.h"
+#include "sim/neighbours/cell_grid.h"
+#include "sim/neighbours/pair_lists.h"
+#include "sim/neighbours/slabs.h"
+#include "sim/simulation.h"
+#include "sim/state.h"
+#include "sim/wall_pass.h"
+
+namespace tsubu::sim {
+
+class Simulation::Impl {
+ public:
+  Impl(Model model, int threads);
+
+  // The step.
+  void step();
+  void computeForces();
+  double time() const { return static_cast<double>(steps) * model.timeStep; }
+
+  // Who comes and goes.
+  void changePopulation();
+  void countCrossings();
+
+  // What can be seen.
+  Ledger ledgerNow();
+  ContactSummary contactsNow();
+  void fill(Snapshot& snapshot);
+  std::uint64_t stateHash();
+
+  Model model;
+  ThreadTeam team;
+  State state;
+  std::size_t law = 0;
+  int stateSize = 0;
+  std::vector<unsigned char> pairConstants;  ///< Law::Pair[materials²]
+  bool oneClass = false;
+  double lead = 1;
+
+  Slabs slabs;
+  CellGrid grid;
+  PairLists pairs;
+  WallPass walls;
+  std::vector<Stage> stages;                   ///< one per thread
+  std::vector<Accounts> last;                  ///< one per slab: this step's
+  std::array<double, Accounts::kinds> total{};  ///< dissipated so far
+
+  double outerSkin = 0, innerSkin = 0;
+  double reach = 0;                         ///< m: farthest distance of the centres of a listed pair
+  double fastest = 0;                       ///< m/s: in the last step
+  double outerTravel = 0, innerTravel = 0;  ///< m: how far any grain may have moved since the lists were made
+  double wallTravel = 0;                    ///< m: the same for walls
+  bool rebuildNeeded = true;
+
+  std::uint64_t steps = 0;
+  std::uint64_t grainSteps = 0;
+  std::uint64_t stepsBetweenArrivals = 1;
+  bool forcesKnown = false;
+  bool accountsKnown = false;               ///< the last pass kept accounts
+  std::vector<Motion> motions;              ///< one per slab
+  std::vector<std::int32_t> placeAfterRemoval;  ///< old place → place after removals that the lists do not know yet; empty: none
+
+  Counts counts;
+  std::vector<LostGrain> lost;
+  std::vector<std::string> warnings;
+  std::vector<StreamProgress> streams;
+  double insertedEnergy = 0, removedEnergy = 0;
+  double initialEnergy = 0, turnover = 0;
+  Ledger lastLedger;
+
+ private:
+  void prepareLaws();
+  void prepareState();
+  void prepareArrivals();
+  void chooseDomain();
+  void addGrain(const Grain& grain);
+
+  bool listsAreDue() const { return rebuildNeeded || 2 * wallTravel > outerSkin || 2 * innerTravel > innerSkin; }
+  void chooseSkins();
+  void refreshLists();
+  void rebuildLists();
+  bool outerListsHold();
+  PassContext context();
+  void move();
+
+  void watchOverlap();
+  void watchTravel();
+  void complain(const std::string& sentence, const std::string& hint);
+  std::string describe(std::size_t grain) const;
+
+  void arrive();
+  void leave();
+  void lose(std::size_t grain, const std::string& why, std::vector<char>& goes);
+  void removeGrains(const std::vector<char>& goes);
+  std::uint32_t sidesOf(const Vec3& position) const;
+
+  struct DeepestContact {
+    std::uint64_t touching = 0;
+    double overlap = 0;  ///< over the smaller radius
+    std::size_t grain = 0;
+    std::string partner;
+  };
+  DeepestContact surveyContacts() const;
+  double energyOf(std::size_t grain) const;
+  void addLoads(std::vector<double>& load) const;
+  std::uint64_t contactHash() const;
+
+  bool warnedOverlap_ = false, warnedTravel_ = false;
+};
+
+}  // namespace tsubu::sim

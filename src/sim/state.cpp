@@ -1,0 +1,46 @@
+#include "sim/state.h"
+
+#include <numbers>
+
+namespace tsubu::sim {
+
+double massOf(double density, double radius) { return density * (4.0 / 3.0 * std::numbers::pi) * radius * radius * radius; }
+
+void State::add(const Grain& grain, double density, const Vec3& freeFall) {
+  const Vec3& x = grain.position;
+  const Vec3& v = grain.velocity;
+  const Vec3 s = turns ? Vec3(grain.radius * grain.angularVelocity) : Vec3(Vec3::Zero());
+  rows.push_back({x.x(), x.y(), x.z(), grain.radius, v.x(), v.y(), v.z(), 1 / massOf(density, grain.radius), s.x(), s.y(), s.z(),
+                  1 / grain.radius});
+  forces.push_back({});
+  if (verlet) {
+    const Vec3 before = v - freeFall;
+    half.push_back({before.x(), before.y(), before.z(), 0, s.x(), s.y(), s.z(), 0});
+  }
+  if (turns) orientation.push_back(grain.orientation.normalized());
+  material.push_back(grain.material);
+  id.push_back(nextId++);
+}
+
+namespace {
+template <class T>
+void reorderOne(std::vector<T>& items, const std::vector<std::int32_t>& order) {
+  if (items.empty()) return;
+  std::vector<T> next;
+  next.reserve(order.size());
+  for (const std::int32_t old : order) next.push_back(items[static_cast<std::size_t>(old)]);
+  items.swap(next);
+}
+}  // namespace
+
+void State::reorder(const std::vector<std::int32_t>& order) {
+  reorderOne(rows, order);
+  reorderOne(half, order);
+  reorderOne(orientation, order);
+  reorderOne(material, order);
+  reorderOne(id, order);
+  reorderOne(sides, order);
+  forces.assign(order.size(), ForceRow{});
+}
+
+}  // namespace tsubu::sim

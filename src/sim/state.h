@@ -1,0 +1,46 @@
+#pragma once
+// The grains of a running simulation. Everything that is indexed by grain is here, in the order of memory (which changes at every
+// rebuild of the lists); permanent ids tell grains apart.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/vec.h"
+#include "sim/grain_rows.h"
+#include "sim/insertion/grain.h"
+
+namespace tsubu::sim {
+
+/// Velocities half a step before those of the row: velocity Verlet's own (docs/physics.md, I2).
+struct alignas(64) HalfStepRow {
+  double vx, vy, vz, unused0;
+  double sx, sy, sz, unused1;
+};
+
+struct State {
+  std::vector<GrainRow> rows;
+  std::vector<ForceRow> forces;
+  std::vector<HalfStepRow> half;         ///< empty unless the integrator keeps half-step velocities
+  std::vector<Quat> orientation;         ///< empty unless grains turn
+  std::vector<std::uint16_t> material;
+  std::vector<std::uint32_t> id;
+  std::vector<std::uint32_t> sides;      ///< bit c: on the positive side of counter c; empty without counters
+  std::vector<Vec3> reference;           ///< positions at the last rebuild of the outer lists
+
+  bool verlet = false;
+  bool turns = false;
+  std::uint32_t nextId = 0;
+
+  std::size_t size() const { return rows.size(); }
+  double mass(std::size_t g) const { return 1 / rows[g].inverseMass; }
+
+  /// Adds a grain; its velocity is that of the present instant. `freeFall` (m/s): what a force-free half step adds, ½ g Δt.
+  void add(const Grain& grain, double density, const Vec3& freeFall);
+  /// Puts the grains into a new order: place k gets what was at order[k]. Grains that `order` leaves out are gone.
+  void reorder(const std::vector<std::int32_t>& order);
+};
+
+/// kg
+double massOf(double density, double radius);
+
+}  // namespace tsubu::sim

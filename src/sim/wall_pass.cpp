@@ -1,0 +1,253 @@
+#include "sim/wall_pass.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace tsubu::sim {
+
+namespace {
+
+V3 v3(const Vec3& a) { return {a.x(), a.y(), a.z()}; }
+Vec3 centreOf(const GrainRow& row) { return {row.x, row.y, row.z}; }
+
+// A contact lies at least this share of the radius away from the centre, so that its direction survives the arithmetic.
+constexpr double leastDistance = 1e-9;
+
+}  // namespace
+
+WallPass::WallPass(const std::vector<Wall>& walls, int stateSize, bool turns, bool rolls)
+    : walls_(&walls), stateSize_(stateSize), turns_(turns), rolls_(rolls), places_(walls.size()) {}
+
+double WallPass::moveTo(double t, double dt) {
+  double travel = 0;
+  for (std::size_t w = 0; w < walls_->size(); ++w) {
+    const Wall& wall = (*walls_)[w];
+    places_[w].pose = wall.motion.at(t);
+    places_[w].twist = wall.motion.twistAt(t);
+    if (wall.motion.still()) continue;
+    if (const auto plane = wall.surface->asPlane()) {
+      // An unbounded plane moves only along its normal, as far as grains can tell; turning out of itself was refused.
+      const Vec3 normal = places_[w].pose.rotation * plane->normal;
+      const Vec3 point = places_[w].pose.toWorld(plane->offset * plane->normal);
+      travel = std::max(travel, std::abs(places_[w].twist.at(point).dot(normal)) * dt);
+    } else {
+      travel = std::max(travel, wall.motion.maxSpeed(wall.surface->bounds(), t, t + dt) * dt);
+    }
+  }
+  return travel;
+}
+
+bool WallPass::touches(const Vec3& centre, double radius) const {
+  std::vector<std::uint32_t> features;
+  for (std::size_t w = 0; w < walls_->size(); ++w) {
+    const Vec3 local = places_[w].pose.toLocal(centre);
+    (*walls_)[w].surface->candidates(local, radius, features);
+    if (!features.empty()) return true;
+  }
+  return false;
+}
+
+void WallPass::build(const State& state, const Slabs& slabs, double skin, const std::vector<std::int32_t>& newPlace) {
+  // Contacts in force, by grain in the new order.
+  struct Old {
+    std::int32_t grain;
+    std::uint16_t wall;
+    Vec3 centre;
+    WallCandidate candidate;
+  };
+  std::vector<Old> old;
+  double work = 0;
+  for (const SlabWalls& slab : slabs_) {
+    work += slab.work;
+    for (const WallGroup& group : slab.groups) {
+      const std::int32_t grain = newPlace[static_cast<std::size_t>(group.grain)];
+      if (grain < 0) continue;
+      for (std::int32_t c = group.first; c < group.last; ++c) {
+        const WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(c)];
+        if (candidate.touching) old.push_back({grain, group.wall, group.centre, candidate});
+      }
+    }
+  }
+  const auto before = [](const Old& a, const Old& b) { return a.grain != b.grain ? a.grain < b.grain : a.wall < b.wall; };
+  std::stable_sort(old.begin(), old.end(), before);
+
+  slabs_.assign(static_cast<std::size_t>(slabs.count()), SlabWalls{});
+  if (!slabs_.empty()) slabs_[0].work = work;
+  std::vector<std::uint32_t> features;
+  for (int s = 0; s < slabs.count(); ++s) {
+    SlabWalls& slab = slabs_[static_cast<std::size_t>(s)];
+    for (std::int32_t g = slabs.begin(s); g < slabs.end(s); ++g) {
+      const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
+      for (std::size_t w = 0; w < walls_->size(); ++w) {
+        const Vec3 local = places_[w].pose.toLocal(centreOf(row));
+        (*walls_)[w].surface->candidates(local, row.radius + skin, features);
+        if (features.empty()) continue;
+        WallGroup group;
+        group.grain = g;
+        group.wall = static_cast<std::uint16_t>(w);
+        group.centre = local;
+        group.first = static_cast<std::int32_t>(slab.candidates.size());
+        for (const std::uint32_t feature : features) {
+          slab.features.push_back(feature);
+          slab.candidates.push_back({feature, false, Vec3::Zero(), {}});
+        }
+        group.last = static_cast<std::int32_t>(slab.candidates.size());
+        const Old key{g, group.wall, {}, {}};
+        for (auto [o, end] = std::equal_range(old.begin(), old.end(), key, before); o != end; ++o) {
+          group.centre = o->centre;
+          const auto place = std::lower_bound(features.begin(), features.end(), o->candidate.feature);
+          if (place != features.end() && *place == o->candidate.feature)
+            slab.candidates[static_cast<std::size_t>(group.first + (place - features.begin()))] = o->candidate;
+        }
+        slab.groups.push_back(group);
+      }
+    }
+  }
+}
+
+/// Contacts on the bench, and where each came from.
+struct WallPass::Batch {
+  WallKernel kernel;
+  bool account;
+  Stage& stage;
+  Accounts& accounts;
+  int count = 0;
+  std::array<std::int32_t, chunkSize> grain, candidate;
+  std::array<Vec3, chunkSize> wallVelocity, wallSpin;
+};
+
+void WallPass::evaluateSlab(int slabNumber, const PassContext& context, WallKernel kernel, bool account, Stage& stage,
+                            Accounts& accounts) {
+  SlabWalls& slab = slabs_[static_cast<std::size_t>(slabNumber)];
+  slab.lastWork = 0;
+  slab.tunnelled.clear();
+  Batch batch{kernel, account, stage, accounts, 0, {}, {}, {}, {}};
+  for (WallGroup& group : slab.groups) evaluateGroup(slab, group, context, batch);
+  flush(slab, context, batch);
+  slab.work += slab.lastWork;
+}
+
+void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, const PassContext& context, Batch& batch) {
+  const GrainRow& row = context.rows[group.grain];
+  const Wall& wall = (*walls_)[group.wall];
+  const WallPlace& place = places_[group.wall];
+  const Surface& surface = *wall.surface;
+  const Vec3 centre = centreOf(row), local = place.pose.toLocal(centre);
+  const std::span<const std::uint32_t> features(slab.features.data() + group.first, static_cast<std::size_t>(group.last - group.first));
+
+  WallContacts contacts;
+  surface.contacts(local, row.radius, features, contacts);
+
+  // Only a centre that is no farther from a face than it has moved can have gone through it.
+  const double travel2 = (local - group.centre).squaredNorm();
+  bool mayHaveCrossed = travel2 > 0.0625 * row.radius * row.radius;
+  for (const WallContact& contact : contacts) mayHaveCrossed = mayHaveCrossed || contact.distance * contact.distance <= travel2;
+  if (mayHaveCrossed && travel2 > 0 && surface.crossedFace(group.centre, local, features) != Surface::none)
+    slab.tunnelled.push_back(group.grain);
+  group.centre = local;
+
+  const Mat3 rotation = place.pose.rotation.toRotationMatrix();
+  bool anyTouched = false;
+  for (std::int32_t c = group.first; c < group.last; ++c) anyTouched = anyTouched || slab.candidates[static_cast<std::size_t>(c)].touching;
+  if (contacts.empty() && !anyTouched) return;
+  if (stateSize_ > 0 && anyTouched) handOver(surface, slab, group, contacts, rotation);
+
+  // Candidates and contacts both ascend by feature. A contact that has just ended goes through the kernel once more, out of reach, so
+  // that its memory is cleared and what its spring held is booked.
+  int next = 0;
+  for (std::int32_t c = group.first; c < group.last; ++c) {
+    WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(c)];
+    while (next < contacts.size() && contacts[next].feature < candidate.feature) ++next;
+    const bool touches = next < contacts.size() && contacts[next].feature == candidate.feature;
+    if (!touches && !candidate.touching) continue;
+    if (batch.count == chunkSize) flush(slab, context, batch);
+    const int q = batch.count++;
+    Vec3 d, point;
+    if (touches) {
+      const Vec3 normal = rotation * contacts[next].normal;
+      candidate.normal = normal;
+      d = std::max(contacts[next].distance, leastDistance * row.radius) * normal;
+      point = place.pose.toWorld(contacts[next].point);
+    } else {
+      d = 2 * row.radius * candidate.normal;
+      point = centre;
+    }
+    const Vec3 velocity = place.twist.at(point);
+    batch.grain[static_cast<std::size_t>(q)] = group.grain;
+    batch.candidate[static_cast<std::size_t>(q)] = c;
+    batch.wallVelocity[static_cast<std::size_t>(q)] = velocity;
+    batch.wallSpin[static_cast<std::size_t>(q)] = place.twist.angularVelocity;
+    Stage& s = batch.stage;
+    s.dx[q] = d.x(), s.dy[q] = d.y(), s.dz[q] = d.z();
+    s.radiusSum[q] = row.radius;
+    s.dvx[q] = row.vx - velocity.x(), s.dvy[q] = row.vy - velocity.y(), s.dvz[q] = row.vz - velocity.z();
+    s.inverseMassSum[q] = row.inverseMass;
+    s.sx[q] = row.sx, s.sy[q] = row.sy, s.sz[q] = row.sz;
+    const V3 spin = row.inverseRadius * row.surfaceSpin(), wallSpin = v3(place.twist.angularVelocity);
+    const V3 sum = spin + wallSpin, difference = spin - wallSpin;
+    s.ox[q] = sum.x, s.oy[q] = sum.y, s.oz[q] = sum.z;
+    s.rx[q] = difference.x, s.ry[q] = difference.y, s.rz[q] = difference.z;
+    s.effectiveRadius[q] = row.radius;
+    s.inverseSpinInertia[q] = 2.5 * row.inverseMass * row.inverseRadius * row.inverseRadius;
+    s.smallerRadius[q] = row.radius;
+    s.weight[q] = touches ? contacts[next].weight : 1;
+    s.pairClass[q] = static_cast<std::int32_t>(context.material[group.grain] * context.materials + wall.material);
+    for (int component = 0; component < stateSize_; ++component) s.memory[component][q] = candidate.memory[component];
+    candidate.touching = touches;
+  }
+}
+
+// A grain that rolls from one feature to the next stays in contact: the new contact starts with the memory of the old one, as far as
+// their normals agree (at a right angle, where a second contact adds to the first, with nothing).
+void WallPass::handOver(const Surface& surface, SlabWalls& slab, const WallGroup& group, const WallContacts& contacts,
+                        const Mat3& rotation) {
+  const auto touchesNow = [&](std::uint32_t feature) {
+    return std::any_of(contacts.begin(), contacts.end(), [&](const WallContact& contact) { return contact.feature == feature; });
+  };
+  for (std::int32_t c = group.first; c < group.last; ++c) {
+    WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(c)];
+    if (candidate.touching) continue;
+    const auto contact =
+        std::find_if(contacts.begin(), contacts.end(), [&](const WallContact& each) { return each.feature == candidate.feature; });
+    if (contact == contacts.end()) continue;
+    const Vec3 normal = rotation * contact->normal;
+    WallCandidate* giver = nullptr;
+    double kinship = 0;
+    for (std::int32_t o = group.first; o < group.last; ++o) {
+      WallCandidate& other = slab.candidates[static_cast<std::size_t>(o)];
+      if (!other.touching || !surface.neighbours(candidate.feature, other.feature)) continue;
+      const double k = contactKinship(normal, other.normal);
+      if (k > kinship) kinship = k, giver = &other;
+    }
+    if (!giver) continue;
+    for (int component = 0; component < stateSize_; ++component) candidate.memory[component] = kinship * giver->memory[component];
+    if (touchesNow(giver->feature)) continue;
+    // The giver has ended; what it keeps is let go.
+    for (int component = 0; component < stateSize_; ++component) giver->memory[component] *= std::sqrt(std::max(0.0, 1 - kinship * kinship));
+  }
+}
+
+void WallPass::flush(SlabWalls& slab, const PassContext& context, Batch& batch) {
+  if (batch.count == 0) return;
+  Stage& s = batch.stage;
+  batch.kernel(context, batch.count, s, batch.accounts);
+  for (int q = 0; q < batch.count; ++q) {
+    const auto k = static_cast<std::size_t>(q);
+    WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(batch.candidate[k])];
+    for (int component = 0; component < stateSize_; ++component) candidate.memory[component] = s.memory[component][q];
+    const double inverseRadius = context.rows[batch.grain[k]].inverseRadius;
+    ForceRow& row = context.forces[batch.grain[k]];
+    row.fx += s.fx[q], row.fy += s.fy[q], row.fz += s.fz[q];
+    if (turns_) row.qx += s.qx[q], row.qy += s.qy[q], row.qz += s.qz[q];
+    if (rolls_) row.qx -= s.mx[q] * inverseRadius, row.qy -= s.my[q] * inverseRadius, row.qz -= s.mz[q] * inverseRadius;
+    if (!batch.account) continue;
+    double power = s.fx[q] * batch.wallVelocity[k].x() + s.fy[q] * batch.wallVelocity[k].y() + s.fz[q] * batch.wallVelocity[k].z();
+    if (rolls_) power += s.mx[q] * batch.wallSpin[k].x() + s.my[q] * batch.wallSpin[k].y() + s.mz[q] * batch.wallSpin[k].z();
+    slab.lastWork += power * context.step.dt;
+  }
+  batch.count = 0;
+}
+
+}  // namespace tsubu::sim

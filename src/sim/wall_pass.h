@@ -1,0 +1,79 @@
+#pragma once
+// Contacts of grains with walls: candidates found with the outer lists, geometry evaluated anew in every step, forces by the same
+// kernels as between grains.
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/kernel/kernels.h"
+#include "sim/model.h"
+#include "sim/neighbours/slabs.h"
+#include "sim/state.h"
+
+namespace tsubu::sim {
+
+/// A feature of a wall that a grain may touch, with the memory of the contact.
+struct WallCandidate {
+  std::uint32_t feature = 0;
+  bool touching = false;     ///< in the last step
+  Vec3 normal;               ///< of that contact, world
+  double memory[6] = {};
+};
+
+/// The candidates of one grain on one wall.
+struct WallGroup {
+  std::int32_t grain = 0;
+  std::uint16_t wall = 0;
+  std::int32_t first = 0, last = 0;  ///< in `candidates` and `features`
+  Vec3 centre = Vec3::Zero();        ///< of the grain at the last evaluation, frame of the wall
+};
+
+struct SlabWalls {
+  std::vector<WallGroup> groups;
+  std::vector<WallCandidate> candidates;
+  std::vector<std::uint32_t> features;  ///< of the candidates, ascending within a group
+  double work = 0, lastWork = 0;        ///< J: done by the walls so far, and in the last step
+  std::vector<std::int32_t> tunnelled;  ///< grains whose centre went through a face in the last step
+};
+
+/// Where a wall is at one instant.
+struct WallPlace {
+  Pose pose;
+  Twist twist;
+};
+
+class WallPass {
+ public:
+  WallPass(const std::vector<Wall>& walls, int stateSize, bool turns, bool rolls);
+
+  /// Places of all walls at time t, before the slabs are evaluated. Returns how far any wall may move against its place in the time dt.
+  double moveTo(double t, double dt);
+  const std::vector<WallPlace>& places() const { return places_; }
+
+  /// New candidates for grains in their new order; memory goes along. `newPlace`: old place → new place, −1 for gone.
+  void build(const State& state, const Slabs& slabs, double skin, const std::vector<std::int32_t>& newPlace);
+
+  /// Adds the wall forces on the grains of a slab.
+  void evaluateSlab(int slab, const PassContext& context, WallKernel kernel, bool account, Stage& stage, Accounts& accounts);
+
+  /// Would a sphere at this place touch a wall?
+  bool touches(const Vec3& centre, double radius) const;
+
+  std::vector<SlabWalls>& slabs() { return slabs_; }
+  const std::vector<SlabWalls>& slabs() const { return slabs_; }
+  std::size_t bytesPerCandidate() const { return sizeof(WallCandidate) + sizeof(std::uint32_t); }
+
+ private:
+  struct Batch;
+  void evaluateGroup(SlabWalls& slab, WallGroup& group, const PassContext& context, Batch& batch);
+  void handOver(const Surface& surface, SlabWalls& slab, const WallGroup& group, const WallContacts& contacts, const Mat3& rotation);
+  void flush(SlabWalls& slab, const PassContext& context, Batch& batch);
+
+  const std::vector<Wall>* walls_;
+  int stateSize_;
+  bool turns_, rolls_;
+  std::vector<WallPlace> places_;
+  std::vector<SlabWalls> slabs_;
+};
+
+}  // namespace tsubu::sim
