@@ -136,7 +136,7 @@ WallModel::WallModel(const TriangleMesh& mesh) {
     const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]);
     if (!(normal.norm() > 0)) continue;
     withArea.push_back(t);
-    triangles_.push_back({p, {}, normal.normalized()});
+    triangles_.push_back({p, {p[0], p[0], p[0]}, normal.normalized()});
     for (const Vec3& corner : p) bounds_.extend(corner);
   }
   welded.triangles = std::move(withArea);

@@ -1,0 +1,11 @@
+// Translucent faces and fine lines, one stream from back to front.
+uniform samplerBuffer sheets;  // three texels a vertex: clip position; normal and 0, or distance across, half width and 1; colour and opacity
+
+out vec4 shape;
+out vec4 paint;
+
+void main() {
+  gl_Position = texelFetch(sheets, 3 * gl_VertexID);
+  shape = texelFetch(sheets, 3 * gl_VertexID + 1);
+  paint = texelFetch(sheets, 3 * gl_VertexID + 2);
+}
