@@ -1,0 +1,35 @@
+#pragma once
+// ledger.csv: one row per output time.
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/simulation.h"
+
+namespace tsubu::app {
+
+class LedgerFile {
+ public:
+  /// Writes the header. Throws Error(files). `counters`: names of the planes that count, one pair of columns each.
+  LedgerFile(const std::filesystem::path& path, const std::vector<std::string>& counters);
+  ~LedgerFile();
+  LedgerFile(const LedgerFile&) = delete;
+  LedgerFile& operator=(const LedgerFile&) = delete;
+
+  /// Appends the row of the present instant, complete on disk when this returns. Without a ledger in the scene its columns stay empty.
+  void add(sim::Simulation& simulation, bool ledger);
+  /// The largest |residual| / turnover of any row but the first.
+  double worstResidual() const { return worst_; }
+
+ private:
+  std::FILE* file_;
+  std::string path_;
+  std::vector<std::int64_t> crossed_;
+  double lastTime_ = 0;
+  std::size_t rows_ = 0;
+  double worst_ = 0;
+};
+
+}  // namespace tsubu::app
