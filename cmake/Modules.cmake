@@ -7,6 +7,8 @@ target_include_directories(tsubu_options INTERFACE "${PROJECT_SOURCE_DIR}/src")
 target_compile_options(tsubu_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   -ffp-contract=off -fno-math-errno -fno-trapping-math)
+# At -O3 g++ 12 takes the strings of a temporary for uninitialized; clang and the sanitizers look after the real ones.
+target_compile_options(tsubu_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 if(TSUBU_WERROR)
   target_compile_options(tsubu_options INTERFACE -Werror)
 endif()
@@ -30,8 +32,7 @@ function(tsubu_test name)
   cmake_parse_arguments(T "" "TIMEOUT" "SOURCES;USES;LABELS" ${ARGN})
   add_executable(${name} ${T_SOURCES})
   target_link_libraries(${name} PRIVATE ${T_USES} tsubu_test_support GTest::gtest GTest::gtest_main)
-  # Tests are compiled once and run once: -O2 saves a third of the compile time, and g++ 12 warns falsely
-  # (maybe-uninitialized) about temporaries with strings at -O3.
+  # Tests are compiled once and run once: -O2 saves a third of the compile time.
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O2>)
   add_test(NAME ${name} COMMAND ${name})
   if(NOT T_TIMEOUT)

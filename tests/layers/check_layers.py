@@ -35,7 +35,8 @@ HOMES = {
     "nlohmann/": {"app"},
     "immintrin.h": {"sim"},
     "hwy/": {"sim"},
-    "unistd.h": {"app"},
+    "zlib.h": {"io"},
+    "unistd.h": {"app", "io"},
     "sys/ioctl.h": {"app"},
 }
 
