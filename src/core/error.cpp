@@ -26,12 +26,18 @@ std::string join(const std::vector<Diagnostic>& diagnostics) {
   }
   return text;
 }
+
+std::vector<Diagnostic> alone(std::string message, std::string hint) {
+  std::vector<Diagnostic> diagnostics(1);
+  diagnostics[0].message = std::move(message);
+  diagnostics[0].hint = std::move(hint);
+  return diagnostics;
+}
 }  // namespace
 
 Error::Error(ErrorKind kind, std::vector<Diagnostic> diagnostics)
     : std::runtime_error(join(diagnostics)), kind_(kind), diagnostics_(std::move(diagnostics)) {}
 
-Error::Error(ErrorKind kind, std::string message, std::string hint)
-    : Error(kind, std::vector<Diagnostic>(1, Diagnostic{SourcePosition(), std::move(message), std::move(hint)})) {}
+Error::Error(ErrorKind kind, std::string message, std::string hint) : Error(kind, alone(std::move(message), std::move(hint))) {}
 
 }  // namespace tsubu

@@ -17,8 +17,6 @@ Acceleration accelerationOf(const GrainRow& row, const ForceRow& force, V3 gravi
   return {row.inverseMass * V3{force.fx, force.fy, force.fz} + gravity, (-2.5 * row.inverseMass) * V3{force.qx, force.qy, force.qz}};
 }
 
-void turn(Quat& orientation, V3 angle) { orientation = (rotationBy(Vec3(angle.x, angle.y, angle.z)) * orientation).normalized(); }
-
 template <bool verlet, bool turns>
 Motion integrateRange(State& state, std::int32_t first, std::int32_t last, V3 gravity, double dt) {
   Motion motion;
@@ -47,7 +45,9 @@ Motion integrateRange(State& state, std::int32_t first, std::int32_t last, V3 gr
     row.vx = v.x, row.vy = v.y, row.vz = v.z;
     if constexpr (turns) {
       row.sx = s.x, row.sy = s.y, row.sz = s.z;
-      turn(state.orientation[k], (dt * row.inverseRadius) * w);
+      AngleRow& angle = state.turned[k];
+      const double scale = dt * row.inverseRadius;
+      angle.x += scale * w.x, angle.y += scale * w.y, angle.z += scale * w.z;
     }
     const double speed2 = norm2(u);
     const double travel2 = speed2 * dt * dt * row.inverseRadius * row.inverseRadius;
@@ -73,11 +73,22 @@ Quat rotationBy(const Vec3& angle) {
   return half * half;
 }
 
-Motion integrate(State& state, std::int32_t first, std::int32_t last, const Vec3& gravity, double dt) {
+Quat orientationNow(const State& state, std::size_t grain) {
+  const AngleRow& angle = state.turned[grain];
+  return (rotationBy(Vec3(angle.x, angle.y, angle.z)) * state.orientation[grain]).normalized();
+}
+
+Motion integrate(State& state, std::int32_t first, std::int32_t last, const Vec3& gravity, double dt, bool turn) {
   const V3 g = v3(gravity);
-  if (state.verlet)
-    return state.turns ? integrateRange<true, true>(state, first, last, g, dt) : integrateRange<true, false>(state, first, last, g, dt);
-  return state.turns ? integrateRange<false, true>(state, first, last, g, dt) : integrateRange<false, false>(state, first, last, g, dt);
+  if (!state.turns) return state.verlet ? integrateRange<true, false>(state, first, last, g, dt) : integrateRange<false, false>(state, first, last, g, dt);
+  const Motion motion =
+      state.verlet ? integrateRange<true, true>(state, first, last, g, dt) : integrateRange<false, true>(state, first, last, g, dt);
+  for (std::int32_t grain = first; turn && grain < last; ++grain) {
+    const auto k = static_cast<std::size_t>(grain);
+    state.orientation[k] = orientationNow(state, k);
+    state.turned[k] = {};
+  }
+  return motion;
 }
 
 void startVerlet(State& state, const Vec3& gravity, double dt) {

@@ -8,7 +8,7 @@
 // is not known before the force that needs it; with the last one the error is of second order in Δt, and the dashpot keeps the order
 // of the scheme (with u alone, as is common, it would be first). Both schemes conserve momentum and, without damping, are symplectic.
 // Rotation is the same for L = I ω; a sphere's inertia is a number, so that r ω is advanced: d(r ω)/dt = −(5/2) Q/m.
-//   I3  orientation        q ← exp(½ ω Δt) q with ω at half steps
+//   I3  orientation        q ← exp(½ ∫ω dt) q, with ω at half steps summed over `turnEvery` steps. No force reads it: it only shows.
 
 #include "sim/neighbours/slabs.h"
 #include "sim/state.h"
@@ -21,8 +21,11 @@ struct Motion {
   double travel2 = 0;   ///< largest (distance moved in the step / radius)²; NaN counts as infinite
 };
 
-/// Moves grains [first, last) by one step and clears their forces.
-Motion integrate(State& state, std::int32_t first, std::int32_t last, const Vec3& gravity, double dt);
+/// Steps from one update of the orientations to the next. Fixed, so that looking at them changes nothing.
+inline constexpr std::uint64_t turnEvery = 8;
+
+/// Moves grains [first, last) by one step and clears their forces. `turn`: also bring their orientations up to date.
+Motion integrate(State& state, std::int32_t first, std::int32_t last, const Vec3& gravity, double dt, bool turn);
 
 /// Sets the half-step velocities from the velocities of the rows and the present forces: what velocity Verlet starts with.
 void startVerlet(State& state, const Vec3& gravity, double dt);
@@ -33,7 +36,10 @@ struct Velocities {
 };
 Velocities velocitiesNow(const State& state, std::size_t grain, const Vec3& gravity, double dt);
 
-/// exp(½ ω Δt): the rotation by the angle |ω| Δt about ω.
+/// The rotation by the angle |a| (rad) about a.
 Quat rotationBy(const Vec3& angle);
+
+/// Orientation of the present instant.
+Quat orientationNow(const State& state, std::size_t grain);
 
 }  // namespace tsubu::sim

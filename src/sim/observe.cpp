@@ -195,7 +195,7 @@ void Simulation::Impl::fill(Snapshot& snapshot) {
     snapshot.velocity.push_back(now.v);
     if (state.turns) {
       snapshot.angularVelocity.push_back(now.s * row.inverseRadius);
-      snapshot.orientation.push_back(state.orientation[g]);
+      snapshot.orientation.push_back(orientationNow(state, g));
     }
     if (model.load) snapshot.load.push_back(load[g]);
   }
@@ -248,7 +248,7 @@ std::uint64_t Simulation::Impl::stateHash() {
     if (state.verlet)
       for (const double value : {state.half[g].vx, state.half[g].vy, state.half[g].vz}) hash.add(value);
     if (state.turns)
-      for (const double value : state.orientation[g].coeffs()) hash.add(value);
+      for (const double value : orientationNow(state, g).coeffs()) hash.add(value);
   }
   hash.add(contactHash());
   return hash.value();

@@ -33,7 +33,7 @@ Plan Simulation::plan(const Model& model) {
   if (!model.walls.empty()) plan.passes.push_back("wall contacts");
   plan.passes.push_back(verlet ? "integrate: velocity Verlet" : "integrate: symplectic Euler");
 
-  plan.bytesPerGrain = sizeof(GrainRow) + sizeof(ForceRow) + (verlet ? sizeof(HalfStepRow) : 0) + (traits.turns ? sizeof(Quat) : 0) +
+  plan.bytesPerGrain = sizeof(GrainRow) + sizeof(ForceRow) + (verlet ? sizeof(HalfStepRow) : 0) + (traits.turns ? sizeof(Quat) + sizeof(AngleRow) : 0) +
                        sizeof(std::uint16_t) + sizeof(std::uint32_t) + (model.counters.empty() ? 0 : sizeof(std::uint32_t)) + sizeof(Vec3);
   plan.bytesPerContact = static_cast<std::size_t>(traits.stateSize) * sizeof(double);
   plan.bytesPerListedPair = 5 * sizeof(std::int32_t);

@@ -118,8 +118,9 @@ void Simulation::Impl::computeForces() {
 void Simulation::Impl::move() {
   std::vector<Motion>& found = motions;
   found.assign(static_cast<std::size_t>(slabs.count()), Motion{});
+  const bool turn = (steps + 1) % turnEvery == 0;
   team.run(slabs.count(), [&](int slab, int) {
-    found[static_cast<std::size_t>(slab)] = integrate(state, slabs.begin(slab), slabs.end(slab), model.gravity, model.timeStep);
+    found[static_cast<std::size_t>(slab)] = integrate(state, slabs.begin(slab), slabs.end(slab), model.gravity, model.timeStep, turn);
   });
   Motion most;
   for (const Motion& motion : found) {

@@ -17,7 +17,10 @@ void State::add(const Grain& grain, double density, const Vec3& freeFall) {
     const Vec3 before = v - freeFall;
     half.push_back({before.x(), before.y(), before.z(), 0, s.x(), s.y(), s.z(), 0});
   }
-  if (turns) orientation.push_back(grain.orientation.normalized());
+  if (turns) {
+    orientation.push_back(grain.orientation.normalized());
+    turned.push_back({});
+  }
   material.push_back(grain.material);
   id.push_back(nextId++);
 }
@@ -37,6 +40,7 @@ void State::reorder(const std::vector<std::int32_t>& order) {
   reorderOne(rows, order);
   reorderOne(half, order);
   reorderOne(orientation, order);
+  reorderOne(turned, order);
   reorderOne(material, order);
   reorderOne(id, order);
   reorderOne(sides, order);

@@ -17,11 +17,17 @@ struct alignas(64) HalfStepRow {
   double sx, sy, sz, unused1;
 };
 
+/// An angle as a vector, rad.
+struct alignas(32) AngleRow {
+  double x, y, z, unused;
+};
+
 struct State {
   std::vector<GrainRow> rows;
   std::vector<ForceRow> forces;
   std::vector<HalfStepRow> half;         ///< empty unless the integrator keeps half-step velocities
-  std::vector<Quat> orientation;         ///< empty unless grains turn
+  std::vector<Quat> orientation;         ///< empty unless grains turn; as it was when `turned` was last zero
+  std::vector<AngleRow> turned;          ///< ∫ω dt since then: orientations only show, and are brought up to date every few steps
   std::vector<std::uint16_t> material;
   std::vector<std::uint32_t> id;
   std::vector<std::uint32_t> sides;      ///< bit c: on the positive side of counter c; empty without counters

@@ -186,8 +186,8 @@ void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, const PassContex
     s.inverseMassSum[q] = row.inverseMass;
     s.sx[q] = row.sx, s.sy[q] = row.sy, s.sz[q] = row.sz;
     const V3 spin = row.inverseRadius * row.surfaceSpin(), wallSpin = v3(place.twist.angularVelocity);
-    const V3 sum = spin + wallSpin, difference = spin - wallSpin;
-    s.ox[q] = sum.x, s.oy[q] = sum.y, s.oz[q] = sum.z;
+    const V3 mean = 0.5 * (spin + wallSpin), difference = spin - wallSpin;
+    s.ox[q] = mean.x, s.oy[q] = mean.y, s.oz[q] = mean.z;
     s.rx[q] = difference.x, s.ry[q] = difference.y, s.rz[q] = difference.z;
     s.effectiveRadius[q] = row.radius;
     s.inverseSpinInertia[q] = 2.5 * row.inverseMass * row.inverseRadius * row.inverseRadius;

@@ -3,6 +3,7 @@
 // internal linkage or is inlined, so that no instruction of a wide set leaks into code that every processor runs.
 
 #include "sim/kernel/kernels.h"
+#include "sim/kernel/lanes.h"
 #include "sim/laws/catalogue.h"
 
 // The contacts of a chunk do not depend on each other: the compiler need not check. (Not `omp simd`: GCC would give every lane its
@@ -16,11 +17,43 @@
 namespace tsubu::sim {
 namespace {
 
+/// Four contacts at once: difference and sum of the two rows (x − x', r + r'; v − v', 1/m + 1/m'; rω + r'ω'), turned into columns.
+template <class Law>
+TSUBU_INLINE void gatherFour(const GrainRow* rows, const std::int32_t* is, const std::int32_t* js, int q, Stage& s) {
+  const D4 signs{-1, -1, -1, 1};
+  D4 x[4], v[4], w[4];
+  for (int k = 0; k < 4; ++k) {
+    const double* const a = &rows[is[k]].x;
+    const double* const b = &rows[js[k]].x;
+    x[k] = load4(a) + signs * load4(b);
+    v[k] = load4(a + 4) + signs * load4(b + 4);
+    if constexpr (Law::turns) w[k] = load4(a + 8) + load4(b + 8);
+  }
+  transpose4(x[0], x[1], x[2], x[3]);
+  store4(s.dx + q, x[0]);
+  store4(s.dy + q, x[1]);
+  store4(s.dz + q, x[2]);
+  store4(s.radiusSum + q, x[3]);
+  transpose4(v[0], v[1], v[2], v[3]);
+  store4(s.dvx + q, v[0]);
+  store4(s.dvy + q, v[1]);
+  store4(s.dvz + q, v[2]);
+  store4(s.inverseMassSum + q, v[3]);
+  if constexpr (Law::turns) {
+    transpose4(w[0], w[1], w[2], w[3]);
+    store4(s.sx + q, w[0]);
+    store4(s.sy + q, w[1]);
+    store4(s.sz + q, w[2]);
+  }
+}
+
 /// Columns of the stage from the rows of both grains.
 template <class Law, bool oneClass, bool accounts>
 void gather(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, Stage& s) {
   const GrainRow* const rows = context.rows;
-  for (int q = 0; q < count; ++q) {
+  int q = 0;
+  for (; q + 4 <= count; q += 4) gatherFour<Law>(rows, is + q, js + q, q, s);
+  for (; q < count; ++q) {
     const GrainRow& a = rows[is[q]];
     const GrainRow& b = rows[js[q]];
     s.dx[q] = a.x - b.x;
@@ -31,24 +64,25 @@ void gather(const PassContext& context, const std::int32_t* is, const std::int32
     s.dvy[q] = a.vy - b.vy;
     s.dvz[q] = a.vz - b.vz;
     s.inverseMassSum[q] = a.inverseMass + b.inverseMass;
-    if constexpr (Law::turns) {
-      s.sx[q] = a.sx + b.sx;
-      s.sy[q] = a.sy + b.sy;
-      s.sz[q] = a.sz + b.sz;
-      s.ox[q] = a.sx * a.inverseRadius + b.sx * b.inverseRadius;
-      s.oy[q] = a.sy * a.inverseRadius + b.sy * b.inverseRadius;
-      s.oz[q] = a.sz * a.inverseRadius + b.sz * b.inverseRadius;
-    }
-    if constexpr (Law::rolls) {
-      s.rx[q] = a.sx * a.inverseRadius - b.sx * b.inverseRadius;
-      s.ry[q] = a.sy * a.inverseRadius - b.sy * b.inverseRadius;
-      s.rz[q] = a.sz * a.inverseRadius - b.sz * b.inverseRadius;
-      s.effectiveRadius[q] = 1 / (a.inverseRadius + b.inverseRadius);
-      s.inverseSpinInertia[q] = 2.5 * (a.inverseMass * a.inverseRadius * a.inverseRadius + b.inverseMass * b.inverseRadius * b.inverseRadius);
-    }
-    if constexpr (accounts) s.smallerRadius[q] = smaller(a.radius, b.radius);
-    if constexpr (!oneClass) {
-      s.pairClass[q] = static_cast<std::int32_t>(context.material[is[q]] * context.materials + context.material[js[q]]);
+    s.sx[q] = a.sx + b.sx;
+    s.sy[q] = a.sy + b.sy;
+    s.sz[q] = a.sz + b.sz;
+  }
+  if constexpr (Law::rolls || accounts || !oneClass) {
+    for (q = 0; q < count; ++q) {
+      const GrainRow& a = rows[is[q]];
+      const GrainRow& b = rows[js[q]];
+      if constexpr (Law::rolls) {
+        s.rx[q] = a.sx * a.inverseRadius - b.sx * b.inverseRadius;
+        s.ry[q] = a.sy * a.inverseRadius - b.sy * b.inverseRadius;
+        s.rz[q] = a.sz * a.inverseRadius - b.sz * b.inverseRadius;
+        s.effectiveRadius[q] = 1 / (a.inverseRadius + b.inverseRadius);
+        s.inverseSpinInertia[q] =
+            2.5 * (a.inverseMass * a.inverseRadius * a.inverseRadius + b.inverseMass * b.inverseRadius * b.inverseRadius);
+      }
+      if constexpr (accounts) s.smallerRadius[q] = smaller(a.radius, b.radius);
+      if constexpr (!oneClass)
+        s.pairClass[q] = static_cast<std::int32_t>(context.material[is[q]] * context.materials + context.material[js[q]]);
     }
   }
 }
@@ -82,7 +116,9 @@ void compute(const PassContext& context, int count, Stage& s, double* const* mem
       arm = distance / s.radiusSum[q];
       const V3 spin{s.sx[q], s.sy[q], s.sz[q]};
       c.slip = dv - c.separationSpeed * c.n - arm * cross(spin, c.n);
-      c.meanSpinAngle = 0.5 * step.dt * (s.ox[q] * c.n.x + s.oy[q] * c.n.y + s.oz[q] * c.n.z);
+      // Between grains the mean is weighted with the radii, which the sum of r ω gives for nothing; any mean turns with the pair.
+      const V3 frameSpin = weighted ? V3{s.ox[q], s.oy[q], s.oz[q]} : (1 / s.radiusSum[q]) * spin;
+      c.frameAngle = step.dt * dot(frameSpin, c.n);
     }
     if constexpr (Law::rolls) {
       c.relativeSpin = {s.rx[q], s.ry[q], s.rz[q]};
@@ -138,44 +174,63 @@ void compute(const PassContext& context, int count, Stage& s, double* const* mem
 }
 
 void addAccounts(int count, const Stage& s, Accounts& accounts) {
-  for (int kind = 0; kind < Accounts::overlap; ++kind)
-    for (int q = 0; q < count; ++q) accounts.lane[kind][q & 7] += s.account[kind][q];
-  double* const deepest = accounts.lane[Accounts::overlap];
-  for (int q = 0; q < count; ++q) {
-    const double overlap = s.account[Accounts::overlap][q];
-    deepest[q & 7] = larger(deepest[q & 7], overlap);
-    accounts.touching += overlap > 0;
+  const int whole = count & ~7;
+  for (int kind = 0; kind < Accounts::overlap; ++kind) {
+    const double* const column = s.account[kind];
+    double* const lane = accounts.lane[kind];
+    for (int q = 0; q < whole; q += 8)
+      for (int l = 0; l < 8; ++l) lane[l] += column[q + l];
+    for (int q = whole; q < count; ++q) lane[q - whole] += column[q];
   }
+  const double* const overlap = s.account[Accounts::overlap];
+  double* const deepest = accounts.lane[Accounts::overlap];
+  for (int q = 0; q < whole; q += 8)
+    for (int l = 0; l < 8; ++l) deepest[l] = larger(deepest[l], overlap[q + l]);
+  for (int q = whole; q < count; ++q) deepest[q - whole] = larger(deepest[q - whole], overlap[q]);
 }
 
 /// Adds the columns to the rows of both grains, in the order of the contacts.
 template <class Law>
-void scatter(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, const Stage& s) {
-  for (int q = 0; q < count; ++q) {
+void scatter(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, Stage& s) {
+  // T = −r Q + M, so a moment is −M/r in Q, which differs for the two.
+  if constexpr (Law::rolls) {
+    for (int q = 0; q < count; ++q) {
+      const double ia = context.rows[is[q]].inverseRadius, ib = context.rows[js[q]].inverseRadius;
+      ForceRow& a = context.forces[is[q]];
+      ForceRow& b = context.forces[js[q]];
+      a.qx -= s.mx[q] * ia, a.qy -= s.my[q] * ia, a.qz -= s.mz[q] * ia;
+      b.qx += s.mx[q] * ib, b.qy += s.my[q] * ib, b.qz += s.mz[q] * ib;
+    }
+  }
+  const D4 none{0, 0, 0, 0};
+  int q = 0;
+  for (; q + 4 <= count; q += 4) {
+    D4 f[4] = {load4(s.fx + q), load4(s.fy + q), load4(s.fz + q), none};
+    transpose4(f[0], f[1], f[2], f[3]);
+    D4 c[4];
+    if constexpr (Law::turns) {
+      c[0] = load4(s.qx + q), c[1] = load4(s.qy + q), c[2] = load4(s.qz + q), c[3] = none;
+      transpose4(c[0], c[1], c[2], c[3]);
+    }
+    for (int k = 0; k < 4; ++k) {
+      double* const a = &context.forces[is[q + k]].fx;
+      double* const b = &context.forces[js[q + k]].fx;
+      add4(a, f[k]);
+      subtract4(b, f[k]);
+      if constexpr (Law::turns) {
+        add4(a + 4, c[k]);
+        add4(b + 4, c[k]);
+      }
+    }
+  }
+  for (; q < count; ++q) {
     ForceRow& a = context.forces[is[q]];
     ForceRow& b = context.forces[js[q]];
-    a.fx += s.fx[q];
-    a.fy += s.fy[q];
-    a.fz += s.fz[q];
-    b.fx -= s.fx[q];
-    b.fy -= s.fy[q];
-    b.fz -= s.fz[q];
-    if constexpr (Law::rolls) {
-      // T = −r Q + M, so a moment is −M/r in Q.
-      const double ia = context.rows[is[q]].inverseRadius, ib = context.rows[js[q]].inverseRadius;
-      a.qx += s.qx[q] - s.mx[q] * ia;
-      a.qy += s.qy[q] - s.my[q] * ia;
-      a.qz += s.qz[q] - s.mz[q] * ia;
-      b.qx += s.qx[q] + s.mx[q] * ib;
-      b.qy += s.qy[q] + s.my[q] * ib;
-      b.qz += s.qz[q] + s.mz[q] * ib;
-    } else if constexpr (Law::turns) {
-      a.qx += s.qx[q];
-      a.qy += s.qy[q];
-      a.qz += s.qz[q];
-      b.qx += s.qx[q];
-      b.qy += s.qy[q];
-      b.qz += s.qz[q];
+    a.fx += s.fx[q], a.fy += s.fy[q], a.fz += s.fz[q];
+    b.fx -= s.fx[q], b.fy -= s.fy[q], b.fz -= s.fz[q];
+    if constexpr (Law::turns) {
+      a.qx += s.qx[q], a.qy += s.qy[q], a.qz += s.qz[q];
+      b.qx += s.qx[q], b.qy += s.qy[q], b.qz += s.qz[q];
     }
   }
 }

@@ -17,7 +17,7 @@ struct alignas(64) Stage {
   Column dvx, dvy, dvz, inverseMassSum;
   // In, for laws with friction.
   Column sx, sy, sz;        // r_i ω_i + r_j ω_j
-  Column ox, oy, oz;        // ω_i + ω_j
+  Column ox, oy, oz;        // walls: the mean spin ½(ω_i + Ω)
   // In, for rolling laws.
   Column rx, ry, rz;        // ω_i − ω_j
   Column effectiveRadius, inverseSpinInertia;
@@ -39,7 +39,6 @@ struct Accounts {
   enum Kind { storedNormal, storedTangential, storedRolling, normal, tangential, friction, rolling, overlap, kinds };
 
   double lane[kinds][8] = {};
-  std::int64_t touching = 0;
 
   double sum(Kind kind) const {
     double total = 0;

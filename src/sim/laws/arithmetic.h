@@ -30,9 +30,9 @@ TSUBU_INLINE V3 select(bool which, V3 yes, V3 no) { return {which ? yes.x : no.x
 inline constexpr double tiny = 1e-200;
 
 /// A vector that lives in the tangent plane of a contact (spring force, rolling moment), carried along while the contact turns:
-/// turned about n with the mean spin of the two bodies, laid into the present tangent plane, length unchanged.
-TSUBU_INLINE V3 carried(V3 a, V3 n, double meanSpinAngle) {
-  const V3 turned = a + meanSpinAngle * cross(n, a);
+/// turned about n with a mean spin of the two bodies, laid into the present tangent plane, length unchanged.
+TSUBU_INLINE V3 carried(V3 a, V3 n, double frameAngle) {
+  const V3 turned = a + frameAngle * cross(n, a);
   const V3 laid = turned - dot(turned, n) * n;
   return std::sqrt(norm2(a) / larger(norm2(laid), tiny)) * laid;
 }

@@ -16,7 +16,7 @@ struct Contact {
   double effectiveMass;      ///< m*, kg
   double effectiveRadius;    ///< R*, m; only set for laws that read it
   double inverseSpinInertia; ///< 1/I_i + 1/I_j, 1/(kg m²); only set for laws that resist rolling
-  double meanSpinAngle;      ///< ½(ω_i + ω_j)·n Δt, rad: how far the contact frame turns about n in a step
+  double frameAngle;         ///< ω̄·n Δt, rad: how far the contact turns about n in a step, ω̄ a mean of ω_i and ω_j
 };
 
 /// The step as a law sees it. Memory is kept at half steps: it is advanced by a whole step, and the force is taken `lead` of a step

@@ -44,7 +44,7 @@ struct ElasticPlasticRolling {
     const double inertia = 3.5 / c.inverseSpinInertia;
     const double damping = 2 * p.dampingRatio * std::sqrt(inertia * k);
     const V3 rolling = c.relativeSpin - dot(c.relativeSpin, c.n) * c.n;
-    const V3 before = carried(memory, c.n, c.meanSpinAngle);
+    const V3 before = carried(memory, c.n, c.frameAngle);
     const V3 gain = (k * step.dt) * rolling;
     const V3 trial = before + step.lead * gain;
     const double limit = p.rollingFriction * c.effectiveRadius * std::abs(normal.force);

@@ -3,7 +3,7 @@
 //
 //   T1   F_t = −k_t δ_t − η_t v_t
 //   T2   |F_t| ≤ μ |F_n|; beyond it the force is cut back along its direction, and the spring so that spring + dashpot = force
-//   T3   δ_t is carried with the contact: turned with n and with the mean spin about n, kept tangential at unchanged length
+//   T3   δ_t is carried with the contact: turned with n and with a mean spin about n, kept tangential at unchanged length
 //   T4   η_t = η_n √(k_t/k_n): the damping ratio of the normal contact; or η_t = m* γ_t from a rate
 //
 //   k_t  tangential stiffness, N/m (2/7 k_n when absent)      v_t  slip velocity, m/s
@@ -53,7 +53,7 @@ struct SpringFriction {
 
   TSUBU_LAW TangentialForce force(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, V3& memory) {
     const double damping = p.dampingOfNormal * normal.damping + p.dampingPerMass * c.effectiveMass;
-    const V3 before = carried(memory, c.n, c.meanSpinAngle);
+    const V3 before = carried(memory, c.n, c.frameAngle);
     const V3 gain = (p.stiffness * step.dt) * c.slip;
     const V3 trial = before + step.lead * gain + damping * c.slip;
     const double limit = p.friction * std::abs(normal.force);
