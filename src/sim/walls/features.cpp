@@ -17,19 +17,22 @@ Vec3 normalizedOr(const Vec3& vector, const Vec3& otherwise) {
   return length > 1e-6 ? Vec3(vector / length) : otherwise;
 }
 
-/// A face at an edge of the mesh, and on which side of the edge (as it runs from its lower to its higher vertex) it lies.
+/// A face at an edge of the mesh. Seen from the side to which its plane's normal points, all triangles run counterclockwise: those to
+/// the left of the edge run forward along it (from its lower to its higher vertex), those to the right backward.
 struct FaceAt {
   std::uint32_t face = 0;
-  bool left = false;
+  int forward = 0, backward = 0;  ///< triangles
   bool operator==(const FaceAt&) const = default;
-  auto operator<=>(const FaceAt&) const = default;
+
+  FaceAt reversed() const { return {face, backward, forward}; }
 };
 
 class Builder {
  public:
-  Builder(TriangleMesh mesh, const std::vector<std::pair<int, int>>& overlaps, double tolerance) : tolerance_(tolerance) {
+  Builder(TriangleMesh mesh, double tolerance, double slack) : tolerance_(tolerance) {
+    result_.slack = slack;
     edges_ = findMeshEdges(mesh.triangles);
-    FlatRegions regions = findFlatRegions(mesh, edges_, overlaps, tolerance);
+    FlatRegions regions = findFlatRegions(mesh, edges_, tolerance);
     result_.mesh = std::move(mesh);
     result_.faceOfTriangle = std::move(regions.ofTriangle);
     for (std::size_t f = 0; f < regions.planes.size(); ++f) {
@@ -45,41 +48,41 @@ class Builder {
   Features build() {
     findRealEdges();
     findChains();
+    closeSlits();
     numberCorners();
-    makeEdges();
     makeOutlines();
+    makeEdges();
     makeCorners();
     listCorners();
     return std::move(result_);
   }
 
  private:
-  /// A straight line of mesh edges from one vertex to another.
+  /// A straight line of mesh edges from one vertex to another (the lower first), with the faces as seen in that direction.
   struct Line {
     int from = 0, to = 0;
-    std::uint32_t meshEdge = 0;  ///< one of them
+    std::vector<FaceAt> faces;
   };
 
   const std::array<int, 3>& triangle(int t) const { return result_.mesh.triangles[static_cast<std::size_t>(t)]; }
   std::uint32_t faceOf(int t) const { return result_.faceOfTriangle[static_cast<std::size_t>(t)]; }
   const Vec3& at(int vertex) const { return vertexOf(result_.mesh, vertex); }
 
-  /// The unit vector in the face, at a right angle to the direction of an edge, on the side of the given triangle.
-  Vec3 inward(TriangleSide side, const Vec3& direction) const {
-    const Vec3 across = result_.faces[faceOf(side.triangle)].plane.normal.cross(direction).normalized();
-    const Vec3 apex = vertexOf(result_.mesh, triangle(side.triangle), side.side + 2) - vertexOf(result_.mesh, triangle(side.triangle), side.side);
-    return across.dot(apex) < 0 ? Vec3(-across) : across;
+  bool runsForward(TriangleSide side, const MeshEdges::Edge& edge) const {
+    const auto& t = triangle(side.triangle);
+    const bool turned = areaVector(result_.mesh, t).dot(result_.faces[faceOf(side.triangle)].plane.normal) < 0;
+    return (t[static_cast<std::size_t>(side.side)] == edge.a) != turned;
   }
 
   std::vector<FaceAt> facesAt(const MeshEdges::Edge& edge) const {
     std::vector<FaceAt> faces;
-    const Vec3 direction = at(edge.b) - at(edge.a);
     for (std::uint32_t s = edge.begin; s < edge.end; ++s) {
       const std::uint32_t face = faceOf(edges_.sides[s].triangle);
-      faces.push_back({face, result_.faces[face].plane.normal.cross(direction).dot(inward(edges_.sides[s], direction)) > 0});
+      auto at = std::find_if(faces.begin(), faces.end(), [face](const FaceAt& known) { return known.face == face; });
+      if (at == faces.end()) at = faces.insert(at, FaceAt{face});
+      ++(runsForward(edges_.sides[s], edge) ? at->forward : at->backward);
     }
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    std::sort(faces.begin(), faces.end(), [](const FaceAt& x, const FaceAt& y) { return x.face < y.face; });
     return faces;
   }
 
@@ -89,8 +92,9 @@ class Builder {
     atVertex_.resize(result_.mesh.vertices.size());
     for (std::uint32_t e = 0; e < edges_.edges.size(); ++e) {
       const auto& edge = edges_.edges[e];
-      if (edge.count() == 2 && faceOf(edges_.sides[edge.begin].triangle) == faceOf(edges_.sides[edge.begin + 1].triangle)) continue;
-      facesAt_[e] = facesAt(edge);
+      std::vector<FaceAt> faces = facesAt(edge);
+      if (faces.size() == 1 && faces[0].forward == faces[0].backward) continue;
+      facesAt_[e] = std::move(faces);
       atVertex_[static_cast<std::size_t>(edge.a)].push_back(e);
       atVertex_[static_cast<std::size_t>(edge.b)].push_back(e);
     }
@@ -105,11 +109,8 @@ class Builder {
     const auto& here = atVertex_[static_cast<std::size_t>(vertex)];
     if (here.size() != 2 || facesAt_[here[0]].size() != facesAt_[here[1]].size()) return false;
     const bool against = (edges_.edges[here[0]].a == vertex) == (edges_.edges[here[1]].a == vertex);
-    std::vector<FaceAt> other = facesAt_[here[1]];
-    if (against)
-      for (FaceAt& face : other) face.left = !face.left;
-    std::sort(other.begin(), other.end());
-    return facesAt_[here[0]] == other;
+    return std::equal(facesAt_[here[0]].begin(), facesAt_[here[0]].end(), facesAt_[here[1]].begin(),
+                      [against](const FaceAt& x, const FaceAt& y) { return x == (against ? y.reversed() : y); });
   }
 
   /// Follows real edges through the vertices that they pass, and cuts each chain into straight lines.
@@ -161,7 +162,7 @@ class Builder {
         }
       }
       if (farthest == 0) {
-        lines_.push_back({vertices[first], vertices[last], chain[first]});
+        addLine(vertices[first], vertices[last], chain[first]);
       } else {
         open.push_back({first, farthest});
         open.push_back({farthest, last});
@@ -181,8 +182,36 @@ class Builder {
     vertices.push_back(vertices.front());
   }
 
+  void addLine(int from, int to, std::uint32_t firstEdge) {
+    std::vector<FaceAt> faces = facesAt_[firstEdge];
+    if ((edges_.edges[firstEdge].a == from) != (from < to))
+      for (FaceAt& face : faces) face = face.reversed();
+    lines_.push_back({std::min(from, to), std::max(from, to), std::move(faces)});
+  }
+
+  /// Two borders of a slit that is narrower than the tolerance have become one line; it is none at all where one face closes over it.
+  void closeSlits() {
+    std::stable_sort(lines_.begin(), lines_.end(), [](const Line& x, const Line& y) { return std::tie(x.from, x.to) < std::tie(y.from, y.to); });
+    std::vector<Line> merged;
+    for (Line& line : lines_) {
+      if (merged.empty() || merged.back().from != line.from || merged.back().to != line.to) {
+        merged.push_back(std::move(line));
+        continue;
+      }
+      for (const FaceAt& face : line.faces) {
+        auto& known = merged.back().faces;
+        const auto at = std::find_if(known.begin(), known.end(), [&](const FaceAt& k) { return k.face == face.face; });
+        if (at == known.end())
+          known.push_back(face);
+        else
+          *at = {face.face, at->forward + face.forward, at->backward + face.backward};
+      }
+    }
+    std::erase_if(merged, [](const Line& line) { return line.faces.size() == 1 && line.faces[0].forward == line.faces[0].backward; });
+    lines_ = std::move(merged);
+  }
+
   void numberCorners() {
-    std::sort(lines_.begin(), lines_.end(), [](const Line& x, const Line& y) { return x.meshEdge < y.meshEdge; });
     cornerOf_.assign(result_.mesh.vertices.size(), noCorner);
     for (const Line& line : lines_) cornerOf_[static_cast<std::size_t>(line.from)] = cornerOf_[static_cast<std::size_t>(line.to)] = 0;
     std::uint32_t count = 0;
@@ -195,6 +224,19 @@ class Builder {
     }
   }
 
+  /// Triangles on both sides of a line cancel: what is left is the way the outline runs there.
+  void makeOutlines() {
+    std::vector<std::vector<Outline::Segment>> segments(result_.faces.size());
+    for (const Line& line : lines_) {
+      for (const FaceAt& here : line.faces) {
+        const Face& face = result_.faces[here.face];
+        if (const int count = here.forward - here.backward; count != 0)
+          segments[here.face].push_back({face.project(at(line.from)), face.project(at(line.to)), count});
+      }
+    }
+    for (std::size_t f = 0; f < segments.size(); ++f) result_.faces[f].outline = Outline(segments[f]);
+  }
+
   void makeEdges() {
     for (const Line& line : lines_) {
       Edge edge;
@@ -204,11 +246,14 @@ class Builder {
       edge.cornerA = cornerOf_[static_cast<std::size_t>(line.from)];
       edge.cornerB = cornerOf_[static_cast<std::size_t>(line.to)];
       edge.sidesBegin = static_cast<std::uint32_t>(result_.sides.size());
-      const auto& meshEdge = edges_.edges[line.meshEdge];
       Vec3 inwards = Vec3::Zero();
-      for (std::uint32_t s = meshEdge.begin; s < meshEdge.end; ++s) {
-        result_.sides.push_back({faceOf(edges_.sides[s].triangle), inward(edges_.sides[s], edge.direction)});
-        inwards += result_.sides.back().inward;
+      for (const FaceAt& here : line.faces) {
+        const Vec3 left = result_.faces[here.face].plane.normal.cross(edge.direction).normalized();
+        for (const auto& [triangles, inward] : {std::pair<int, Vec3>(here.forward, left), {here.backward, -left}}) {
+          if (triangles == 0 && !isCovered(edge, result_.faces[here.face], inward)) continue;
+          result_.sides.push_back({here.face, inward});
+          inwards += inward;
+        }
       }
       edge.sidesEnd = static_cast<std::uint32_t>(result_.sides.size());
       edge.normal = normalizedOr(-inwards, result_.faces[result_.sides[edge.sidesBegin].face].plane.normal);
@@ -216,18 +261,14 @@ class Builder {
     }
   }
 
-  /// An edge with one and the same face on both sides is no part of its outline.
-  void makeOutlines() {
-    std::vector<std::vector<Outline::Segment>> segments(result_.faces.size());
-    for (const Line& line : lines_) {
-      const auto& faces = facesAt_[line.meshEdge];
-      for (const FaceAt& here : faces) {
-        const bool bothSides = std::find(faces.begin(), faces.end(), FaceAt{here.face, !here.left}) != faces.end();
-        const Face& face = result_.faces[here.face];
-        if (!bothSides) segments[here.face].push_back({face.project(at(line.from)), face.project(at(line.to))});
-      }
-    }
-    for (std::size_t f = 0; f < segments.size(); ++f) result_.faces[f].outline = Outline(segments[f]);
+  bool covers(const Face& face, const Vec3& point) const { return face.outline.contains(face.project(point)); }
+
+  /// Does the face go on beside its edge, though no triangle there has it for a side: another triangle overlaps, or the gap between
+  /// them is too narrow to count?
+  bool isCovered(const Edge& edge, const Face& face, const Vec3& inward) const {
+    for (const double part : {0.05, 0.3, 0.5, 0.7, 0.95})
+      if (!covers(face, edge.start + part * edge.length * edge.direction + result_.slack * inward)) return false;
+    return true;
   }
 
   void makeCorners() {
@@ -254,6 +295,7 @@ class Builder {
       corner.normal = normalizedOr(-sum, result_.faces[faceOf(around[c][0].triangle)].plane.normal);
       corner.sectorsBegin = static_cast<std::uint32_t>(result_.sectors.size());
       findSectors(around[c]);
+      findCoveringFaces(corner.point, around[c]);
       corner.sectorsEnd = static_cast<std::uint32_t>(result_.sectors.size());
     }
   }
@@ -301,6 +343,23 @@ class Builder {
     result_.sectors.push_back({face.plane.normal, normalizedOr(sum, face.u), all ? -2 : std::cos(angle / 2) - 1e-9});
   }
 
+  /// A corner in the midst of a face, of triangles that overlap or leave a gap too narrow to count.
+  void findCoveringFaces(const Vec3& point, const std::vector<TriangleSide>& around) {
+    std::vector<std::uint32_t> faces;
+    for (const TriangleSide side : around) faces.push_back(faceOf(side.triangle));
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    for (const std::uint32_t f : faces) {
+      const Face& face = result_.faces[f];
+      bool all = true;
+      for (int k = 0; k < 8 && all; ++k) {
+        const double phi = (2 * k + 1) * std::numbers::pi / 8;
+        all = covers(face, point + 2 * result_.slack * (std::cos(phi) * face.u + std::sin(phi) * face.v));
+      }
+      if (all) result_.sectors.push_back({face.plane.normal, face.u, -2});
+    }
+  }
+
   void listCorners() {
     std::vector<std::vector<std::uint32_t>> ofFace(result_.faces.size());
     for (std::size_t t = 0; t < result_.mesh.triangles.size(); ++t)
@@ -338,8 +397,8 @@ class Builder {
 
 }  // namespace
 
-Features findFeatures(TriangleMesh mesh, const std::vector<std::pair<int, int>>& overlaps, double tolerance) {
-  return Builder(std::move(mesh), overlaps, tolerance).build();
+Features findFeatures(TriangleMesh mesh, double tolerance, double slack) {
+  return Builder(std::move(mesh), tolerance, slack).build();
 }
 
 }  // namespace tsubu::sim

@@ -2,7 +2,6 @@
 // From repaired triangles to planar faces, edges and corners.
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "core/mesh.h"
@@ -72,8 +71,8 @@ struct Features {
   double slack = 0;  ///< m: how far apart two points of the wall may be and still count as one
 };
 
-/// `overlaps`: pairs of coplanar triangles that cover the same area; they never become part of one face.
 /// `tolerance` (m): how far vertices may lie from the plane of their face, and from the line of their edge.
-Features findFeatures(TriangleMesh mesh, const std::vector<std::pair<int, int>>& overlaps, double tolerance);
+/// `slack` (m): Features::slack; two borders of one face that are nearer to each other are no gap.
+Features findFeatures(TriangleMesh mesh, double tolerance, double slack);
 
 }  // namespace tsubu::sim

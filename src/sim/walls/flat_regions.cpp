@@ -13,14 +13,9 @@ constexpr std::uint32_t unassigned = std::numeric_limits<std::uint32_t>::max();
 
 class Growth {
  public:
-  Growth(const TriangleMesh& mesh, const MeshEdges& edges, const std::vector<std::pair<int, int>>& overlaps, double flat)
-      : mesh_(mesh), edges_(edges), flat_(flat), rivals_(mesh.triangles.size()) {
+  Growth(const TriangleMesh& mesh, const MeshEdges& edges, double flat) : mesh_(mesh), edges_(edges), flat_(flat) {
     areas_.reserve(mesh.triangles.size());
     for (const auto& triangle : mesh.triangles) areas_.push_back(areaVector(mesh, triangle));
-    for (const auto& [a, b] : overlaps) {
-      rivals_[static_cast<std::size_t>(a)].push_back(b);
-      rivals_[static_cast<std::size_t>(b)].push_back(a);
-    }
     result_.ofTriangle.assign(mesh.triangles.size(), unassigned);
   }
 
@@ -105,7 +100,7 @@ class Growth {
     bool done = true;
     for (std::uint32_t s = edge.begin; s < edge.end; ++s) {
       const TriangleSide other = edges_.sides[s];
-      if (regionOf(other.triangle) != unassigned || isRival(other.triangle) || !isBeyond(side, other)) continue;
+      if (regionOf(other.triangle) != unassigned) continue;
       if (isFlat(other.triangle, tolerance))
         take(other.triangle, plane_.normal);
       else
@@ -114,25 +109,9 @@ class Growth {
     return done;
   }
 
-  /// Does the triangle cover the same area as one of the region?
-  bool isRival(int t) const {
-    const auto& rivals = rivals_[static_cast<std::size_t>(t)];
-    return std::any_of(rivals.begin(), rivals.end(), [&](int r) { return result_.ofTriangle[static_cast<std::size_t>(r)] == region_; });
-  }
-
-  /// Do the two triangles lie on opposite sides of their common edge?
-  bool isBeyond(TriangleSide a, TriangleSide b) const {
-    const Vec3& from = vertexOf(mesh_, triangle(a.triangle), a.side);
-    const Vec3 across = plane_.normal.cross(vertexOf(mesh_, triangle(a.triangle), a.side + 1) - from);
-    const double heightA = across.dot(vertexOf(mesh_, triangle(a.triangle), a.side + 2) - from);
-    const double heightB = across.dot(vertexOf(mesh_, triangle(b.triangle), b.side + 2) - from);
-    return heightA * heightB < 0;
-  }
-
   const TriangleMesh& mesh_;
   const MeshEdges& edges_;
   double flat_;
-  std::vector<std::vector<int>> rivals_;
   std::vector<Vec3> areas_;
   FlatRegions result_;
 
@@ -145,8 +124,6 @@ class Growth {
 
 }  // namespace
 
-FlatRegions findFlatRegions(const TriangleMesh& mesh, const MeshEdges& edges, const std::vector<std::pair<int, int>>& overlaps, double flat) {
-  return Growth(mesh, edges, overlaps, flat).run();
-}
+FlatRegions findFlatRegions(const TriangleMesh& mesh, const MeshEdges& edges, double flat) { return Growth(mesh, edges, flat).run(); }
 
 }  // namespace tsubu::sim

@@ -49,17 +49,18 @@ std::uint32_t Outline::strip(double y) const {
 bool Outline::contains(const Vec2& point) const {
   if (!(point.y() >= low_ && point.y() <= high_)) return false;
   const std::uint32_t k = strip(point.y());
-  bool inside = false;
+  int winding = 0;
   for (std::uint32_t i = begin_[k]; i < begin_[k + 1]; ++i) {
     const Segment& s = segments_[i];
-    if ((s.a.y() > point.y()) == (s.b.y() > point.y())) continue;  // half-open: a vertex at this height counts once
-    // From the lower end, so that the answer does not depend on the way the outline runs.
-    const Vec2& low = s.a.y() < s.b.y() ? s.a : s.b;
-    const Vec2& high = s.a.y() < s.b.y() ? s.b : s.a;
+    const bool upwards = s.b.y() > point.y();
+    if ((s.a.y() > point.y()) == upwards) continue;  // half-open: a vertex at this height counts once
+    // From the lower end, so that the answer does not depend on the way the segment runs.
+    const Vec2& low = upwards ? s.a : s.b;
+    const Vec2& high = upwards ? s.b : s.a;
     const double cross = (high.x() - low.x()) * (point.y() - low.y()) - (high.y() - low.y()) * (point.x() - low.x());
-    if (cross > 0) inside = !inside;
+    if (cross > 0) winding += upwards ? s.count : -s.count;
   }
-  return inside;
+  return winding != 0;
 }
 
 double Outline::squaredDistance(const Vec2& point, double reach) const {

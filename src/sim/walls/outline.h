@@ -10,12 +10,14 @@ namespace tsubu::sim {
 
 using Vec2 = Eigen::Vector2d;
 
-/// Any number of closed loops, given as a bag of segments; a point is inside when a ray from it crosses an odd number of them.
-/// Segments are sorted into strips of equal height, so that a point looks only at those at its own height.
+/// The sum of the outlines of figures that all run the same way around, as a bag of directed segments: a point is inside when they
+/// wind around it, so that figures may overlap. Segments are sorted into strips of equal height, and a point looks only at those at
+/// its own height.
 class Outline {
  public:
   struct Segment {
     Vec2 a, b;
+    int count = 1;  ///< how often it is there; negative when it runs from b to a
   };
 
   Outline() = default;

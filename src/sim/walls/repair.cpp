@@ -22,6 +22,9 @@ namespace {
 /// A triangle whose height is this fraction of its longest side is a sliver.
 constexpr double sliverFraction = 1e-4;
 
+/// T-joints are looked for again after each repair, at most so often. One round does for all but wilfully bad meshes.
+constexpr int mostPasses = 10;
+
 /// "triangle 7", "triangles 3, 5 and 8", "100 triangles, first 3, 5, 8 …".
 std::string nameTriangles(const std::vector<int>& triangles) {
   constexpr std::size_t most = 8;
@@ -75,7 +78,7 @@ class FaultList {
       case MeshFaultKind::nonManifold: return {MeshRemedy::harmless, "three or more triangles meet in one edge, kept: {}"};
       case MeshFaultKind::inconsistentWinding:
         return {MeshRemedy::harmless, "turned the other way than a neighbour, which two-sided walls do not mind: {}"};
-      case MeshFaultKind::overlap: return {MeshRemedy::repaired, "covering the same area of one plane, counted once: {}"};
+      case MeshFaultKind::overlap: return {MeshRemedy::harmless, "covering the same area of one plane, counted once: {}"};
     }
     return {MeshRemedy::refused, ""};
   }
@@ -227,8 +230,7 @@ std::vector<Joint> findJoints(const RepairedMesh& repaired) {
       const Vec3& from = vertexOf(mesh, triangle, side.side);
       const Vec3 along = vertexOf(mesh, triangle, side.side + 1) - from;
       const double length = along.norm(), t = (x - from).dot(along) / (length * length);
-      const double margin = repaired.weldTolerance / length;
-      if (t > margin && t < 1 - margin && (x - from - t * along).norm() <= repaired.flatTolerance) joints.push_back({side, t, vertex});
+      if (t > 0 && t < 1 && (x - from - t * along).norm() <= repaired.flatTolerance) joints.push_back({side, t, vertex});
     });
   }
   std::sort(joints.begin(), joints.end(), [](const Joint& a, const Joint& b) {
@@ -256,7 +258,8 @@ void splitSide(std::vector<std::array<int, 3>>& pieces, int a, int b, const std:
   }
 }
 
-void splitJoints(RepairedMesh& repaired, FaultList& faults) {
+/// Splits every triangle that has a vertex inside one of its sides. False when there is none.
+bool splitJoints(RepairedMesh& repaired, FaultList& faults) {
   const std::vector<Joint> joints = findJoints(repaired);
   auto& triangles = repaired.mesh.triangles;
   for (std::size_t begin = 0, end; begin < joints.size(); begin = end) {
@@ -274,6 +277,7 @@ void splitJoints(RepairedMesh& repaired, FaultList& faults) {
     triangles.insert(triangles.end(), pieces.begin() + 1, pieces.end());
     repaired.source.insert(repaired.source.end(), pieces.size() - 1, source);
   }
+  return !joints.empty();
 }
 
 /// What is remarkable about the mesh but needs no mending.
@@ -336,9 +340,11 @@ RepairedMesh repair(const TriangleMesh& mesh) {
     weld(repaired, box);
     dropDegenerate(repaired, &faults);
     dropDuplicates(repaired, faults);
-    splitJoints(repaired, faults);
-    dropDegenerate(repaired, nullptr);  // splinters of a split within the tolerance
-    dropDuplicates(repaired, faults);
+    // Splinters without area that a split leaves behind may bare the next joint.
+    for (int pass = 0; pass < mostPasses && splitJoints(repaired, faults); ++pass) {
+      dropDegenerate(repaired, nullptr);
+      dropDuplicates(repaired, faults);
+    }
   }
   if (scale == 0 || repaired.mesh.triangles.empty()) {
     faults.add(MeshFaultKind::empty, 0);
@@ -346,8 +352,7 @@ RepairedMesh repair(const TriangleMesh& mesh) {
   }
   noteHarmless(repaired, faults);
   dropUnusedVertices(repaired.mesh);
-  repaired.overlaps = findOverlaps(repaired.mesh, repaired.flatTolerance);
-  for (const auto& pair : repaired.overlaps) faults.add(MeshFaultKind::overlap, repaired.source[static_cast<std::size_t>(pair.second)]);
+  for (const auto& pair : findOverlaps(repaired.mesh, repaired.flatTolerance)) faults.add(MeshFaultKind::overlap, repaired.source[static_cast<std::size_t>(pair.second)]);
   repaired.faults = faults.list();
   return repaired;
 }

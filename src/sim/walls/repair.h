@@ -1,7 +1,6 @@
 #pragma once
 // Welding, and finding and mending what is wrong with a mesh.
 
-#include <utility>
 #include <vector>
 
 #include "core/mesh.h"
@@ -19,7 +18,6 @@ inline constexpr double flatFraction = 2.5e-7;
 struct RepairedMesh {
   TriangleMesh mesh;             ///< every vertex used, every triangle with an area, no two alike
   std::vector<int> source;       ///< the triangle of the original mesh that each came from
-  std::vector<std::pair<int, int>> overlaps;  ///< coplanar triangles of `mesh` that cover the same area, ascending
   double weldTolerance = 0;      ///< m
   double flatTolerance = 0;      ///< m
   std::vector<MeshFault> faults; ///< repaired and harmless ones

@@ -34,8 +34,7 @@ Box boxOfTriangles(const Features& features, std::uint32_t face, const std::vect
 Surface::Surface(const TriangleMesh& mesh) : name_(mesh.name) {
   RepairedMesh repaired = repair(mesh);
   faults_ = std::move(repaired.faults);
-  features_ = findFeatures(std::move(repaired.mesh), repaired.overlaps, repaired.flatTolerance);
-  features_.slack = repaired.weldTolerance;
+  features_ = findFeatures(std::move(repaired.mesh), repaired.flatTolerance, 2 * repaired.weldTolerance);
 
   std::vector<std::vector<int>> trianglesOf(features_.faces.size());
   for (std::size_t t = 0; t < features_.faceOfTriangle.size(); ++t) trianglesOf[features_.faceOfTriangle[t]].push_back(static_cast<int>(t));
@@ -106,6 +105,11 @@ void Surface::candidates(const Vec3& centre, double reach, std::vector<std::uint
 }
 
 void Surface::contacts(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates, WallContacts& contacts) const {
+  nearestPoints(centre, radius, candidates, contacts);
+  shareLoad(contacts, radius);
+}
+
+void Surface::nearestPoints(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates, WallContacts& contacts) const {
   contacts.clear();
   const std::uint32_t faces = faceCount(), facesAndEdges = faces + edgeCount();
   WallContact contact;
@@ -121,7 +125,6 @@ void Surface::contacts(const Vec3& centre, double radius, std::span<const std::u
     contact.feature = feature;
     insert(contact, contacts);
   }
-  shareLoad(contacts, radius);
 }
 
 bool Surface::closestOnFace(const Face& face, const Vec3& centre, double radius, WallContact& contact) const {

@@ -55,8 +55,11 @@ class Surface {
   /// Replaces `features` by those with a point nearer than `reach` to `centre` (m), in ascending order.
   void candidates(const Vec3& centre, double reach, std::vector<std::uint32_t>& features) const;
 
-  /// The contacts of a sphere, given ascending candidates that hold at least every feature nearer than `radius`.
-  /// No allocation; contacts come in ascending order of feature with their weights set (shareLoad).
+  /// Where the distance from the centre to the wall is locally least and below `radius`, with all weights 1, in ascending order of
+  /// feature. `candidates`: ascending, holding at least every feature nearer than `radius`. No allocation.
+  void nearestPoints(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates, WallContacts& contacts) const;
+
+  /// The contacts of a sphere: its nearest points with the load shared between them (shareLoad).
   void contacts(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates, WallContacts& contacts) const;
 
   /// The first face among the candidates that the straight way from one point to another (m) passes through, or `none`:
