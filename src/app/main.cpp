@@ -1,0 +1,98 @@
+// The command line. Exit codes: 0 fine, 1 the simulation failed, 2 scene or usage, 3 files, 130 interrupted.
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/messages.h"
+#include "app/run.h"
+#include "app/version.h"
+#include "core/error.h"
+#include "scene/build.h"
+#include "scene/explain.h"
+#include "scene/reader.h"
+#include "scene/reference.h"
+
+namespace tsubu::app {
+namespace {
+
+struct Commands {
+  CLI::App* run;
+  CLI::App* explain;
+  CLI::App* check;
+  CLI::App* reference;
+};
+
+void addSceneOptions(CLI::App& command, RunOptions& options) {
+  command.add_option("SCENE", options.scene, "Scene file (TOML)")->required();
+  command.add_option("--set", options.overrides, "Override a value: path.to.key=value (may be given several times)")
+      ->take_all()
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+}
+
+Commands describe(CLI::App& app, RunOptions& options) {
+  app.set_version_flag("--version", fmt::format("tsubu {}", version));
+  app.require_subcommand(1);
+  app.failure_message(CLI::FailureMessage::help);
+  Commands commands{app.add_subcommand("run", "Simulate a scene and write its film"),
+                    app.add_subcommand("explain", "Print the plan of a scene: what is modelled, what it costs"),
+                    app.add_subcommand("check", "Validate a scene and its files, and run nothing"),
+                    app.add_subcommand("reference", "Print the reference of scene files (Markdown)")};
+  for (CLI::App* command : {commands.run, commands.explain, commands.check}) addSceneOptions(*command, options);
+  commands.run->add_option("-o,--output", options.folder, "Folder for the results (out/NAME when not given)")->type_name("DIR");
+  commands.run->add_option("--threads", options.threads, "Threads of the simulation; the results do not depend on it (all cores when not given)")
+      ->check(CLI::Range(1, 1024));
+  commands.run->add_option("--until", options.until, "End at this time instead of the scene's, in seconds")->check(CLI::NonNegativeNumber);
+  commands.run->add_flag("!--no-frames", options.frames, "Simulate only");
+  commands.run->add_option("--isa", options.isa, "Force an instruction set: portable, avx2 or avx512; the results do not depend on it");
+  return commands;
+}
+
+int execute(const Commands& commands, const RunOptions& options) {
+  if (*commands.run) return run(options);
+  if (*commands.reference) {
+    fmt::print("{}", scene::writeReference());
+    return 0;
+  }
+  std::vector<Diagnostic> odd;
+  const scene::Scene scene = scene::read(options.scene, options.overrides, &odd);
+  for (const Diagnostic& warning : odd) warn(toString(warning));
+  if (*commands.explain) {
+    fmt::print("{}", scene::explain(scene));
+    return 0;
+  }
+  for (const std::string& warning : scene::build(scene).warnings) warn(warning);
+  fmt::print("{}: fine.\n", options.scene);
+  return 0;
+}
+
+int mainOf(int argc, char** argv) {
+  CLI::App app("tsubu: films of granular flow from a text scene, off screen", "tsubu");
+  RunOptions options;
+  const Commands commands = describe(app, options);
+  try {
+    app.parse(argc, argv);
+    return execute(commands, options);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::scene);
+  } catch (const Error& error) {
+    for (const Diagnostic& diagnostic : error.diagnostics()) complain(toString(diagnostic));
+    return static_cast<int>(error.kind());
+  } catch (const std::bad_alloc&) {
+    complain("There is not enough memory for this scene.");
+    return static_cast<int>(ErrorKind::simulation);
+  } catch (const std::exception& error) {
+    complain(error.what());
+    return static_cast<int>(ErrorKind::simulation);
+  }
+}
+
+}  // namespace
+}  // namespace tsubu::app
+
+int main(int argc, char** argv) { return tsubu::app::mainOf(argc, argv); }

@@ -1,0 +1,186 @@
+#include "app/run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "app/film.h"
+#include "app/interrupt.h"
+#include "app/ledger_file.h"
+#include "app/messages.h"
+#include "app/progress.h"
+#include "app/run_report.h"
+#include "app/version.h"
+#include "core/error.h"
+#include "core/hash.h"
+#include "io/text_file.h"
+#include "scene/build.h"
+#include "sim/kernel/kernels.h"
+
+namespace tsubu::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::uint64_t nextMultiple(std::uint64_t step, std::uint64_t of) { return (step / of + 1) * of; }
+
+/// A run under way: the simulation, and the three things it leaves behind.
+class Run {
+ public:
+  explicit Run(const RunOptions& options);
+  int go();
+
+ private:
+  void openFilm(scene::Built& built, const scene::Scene& scene);
+  void loop();
+  void show(bool last);
+  void writeFrame();
+  void report(const std::string& ended, const std::string& failure);
+  void summarise() const;
+
+  const RunOptions& options_;
+  ProgressLine progress_{stderr};
+  fs::path folder_;
+  RunReport report_;
+  std::vector<std::string> sceneWarnings_;
+  std::unique_ptr<sim::Simulation> simulation_;
+  std::unique_ptr<LedgerFile> ledger_;
+  std::unique_ptr<Film> film_;
+};
+
+Run::Run(const RunOptions& options) : options_(options) {
+  std::vector<Diagnostic> odd;
+  scene::Overrides overrides = options.overrides;
+  if (options.until) overrides.push_back(fmt::format("simulation.end={:.17g}", *options.until));
+  const scene::Scene scene = scene::read(options.scene, overrides, &odd);
+  if (!options.isa.empty()) sim::useKernels(options.isa);
+  for (const Diagnostic& warning : odd) warn(toString(warning));
+  scene::Built built = scene::build(scene);
+  for (const std::string& warning : built.warnings) warn(warning);
+
+  folder_ = options.folder.empty() ? fs::path("out") / fs::path(options.scene).stem() : fs::path(options.folder);
+  std::error_code failed;
+  fs::create_directories(folder_, failed);
+  if (failed) throw Error(ErrorKind::files, fmt::format("Cannot make the folder '{}': {}.", folder_.string(), failed.message()));
+
+  report_.scene = options.scene;
+  report_.title = scene.title;
+  report_.threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  report_.isa = sim::kernels().isa;
+  report_.plan = built.plan;
+  report_.slowMotion = scene::slowMotion(scene.output);
+  report_.frameRate = scene.output.fps;
+  report_.ledger = scene.simulation.ledger;
+  report_.warnings = built.warnings;
+  for (const Diagnostic& warning : odd) report_.warnings.push_back(toString(warning));
+  for (const sim::Counter& counter : built.model.counters) report_.counters.push_back(counter.name);
+  if (options.frames) openFilm(built, scene);
+  ledger_ = std::make_unique<LedgerFile>(folder_ / "ledger.csv", report_.counters);
+  simulation_ = std::make_unique<sim::Simulation>(std::move(built.model), report_.threads);
+}
+
+void Run::openFilm(scene::Built& built, const scene::Scene& scene) {
+  Film::Parts parts{built.style, std::move(built.walls), built.bounds, folder_ / "frames", {}};
+  parts.text["Software"] = fmt::format("tsubu {}", version);
+  parts.text["Title"] = scene.title;
+  parts.text["scene"] = options_.scene;
+  parts.text["scene text"] = io::readTextFile(options_.scene, "scene file");
+  film_ = std::make_unique<Film>(std::move(parts));
+}
+
+int Run::go() {
+  watchForInterrupt();
+  try {
+    loop();
+    if (film_) film_->finish();
+  } catch (const Error& error) {
+    // Keep what there is: the frames that were handed in, the rows, and a report that says why there are no more.
+    if (film_ && error.kind() == ErrorKind::simulation) film_->finish();
+    report("failed", error.what());
+    throw;
+  }
+  const bool complete = simulation_->steps() >= report_.plan.steps;
+  report(complete ? "complete" : "interrupted", {});
+  show(true);
+  summarise();
+  return complete ? 0 : 130;
+}
+
+void Run::loop() {
+  const scene::FramePlan& plan = report_.plan;
+  sim::Simulation& sim = *simulation_;
+  std::size_t warned = 0;
+  for (;;) {
+    const std::uint64_t step = sim.steps();
+    const bool last = step >= plan.steps;
+    if (step % plan.stepsPerLedgerRow == 0 || last) ledger_->add(sim, report_.ledger);
+    if (step % plan.stepsPerFrame == 0) writeFrame();
+    for (; warned < sim.warnings().size(); ++warned) warn(sim.warnings()[warned]);
+    if (last || interrupted()) return;
+    show(false);
+    const std::uint64_t next = std::min({nextMultiple(step, plan.stepsPerLedgerRow), nextMultiple(step, plan.stepsPerFrame), plan.steps});
+    const double before = progress_.secondsSinceStart();
+    // In small portions, so that progress shows and Ctrl-C is heard between distant outputs too.
+    while (sim.steps() < next && !interrupted()) {
+      sim.advance(std::min<std::uint64_t>(next - sim.steps(), 200));
+      show(false);
+    }
+    report_.simulationTime += progress_.secondsSinceStart() - before;
+  }
+}
+
+void Run::writeFrame() {
+  if (!film_) return;
+  Snapshot snapshot;
+  simulation_->fill(snapshot);
+  film_->add(std::move(snapshot));
+}
+
+void Run::show(bool last) {
+  progress_.show({simulation_->time(), static_cast<double>(report_.plan.steps) * report_.plan.timeStep, film_ ? film_->frames() : 0,
+                  film_ ? static_cast<std::size_t>(report_.plan.frames) : 0, static_cast<double>(simulation_->grainSteps())},
+                 last);
+}
+
+void Run::report(const std::string& ended, const std::string& failure) {
+  sim::Simulation& sim = *simulation_;
+  RunReport& r = report_;
+  r.ended = ended;
+  r.failure = failure;
+  r.steps = sim.steps();
+  r.simulatedTime = sim.time();
+  r.wallTime = progress_.secondsSinceStart();
+  r.grainSteps = sim.grainSteps();
+  r.grains = sim.grains();
+  r.counts = sim.counts();
+  r.lostGrains = sim.lostGrains();
+  r.warnings.insert(r.warnings.end(), sim.warnings().begin(), sim.warnings().end());
+  r.worstEnergyResidual = ledger_->worstResidual();
+  if (failure.empty()) {
+    r.energyResidual = r.ledger ? sim.ledger().residualFraction() : 0;
+    r.stateHash = fmt::format("{:016x}", sim.stateHash());
+  }
+  r.frames = film_ ? film_->frames() : 0;
+  r.renderer = film_ ? film_->renderer() : "";
+  writeReport(folder_ / "run.json", r);
+}
+
+void Run::summarise() const {
+  const RunReport& r = report_;
+  std::string text = fmt::format("{} {}: {} grains, t = {:.4g} s, {} steps of {:.4g} s in {:.1f} s", r.scene, r.ended, r.grains,
+                                 r.simulatedTime, r.steps, r.plan.timeStep, r.wallTime);
+  if (r.ledger) text += fmt::format("; energy unaccounted for: {:.2g} %", 100 * r.energyResidual);
+  if (r.counts.lost > 0) text += fmt::format("; {} grains lost", r.counts.lost);
+  fmt::print("{}\n{}: {} frames, ledger.csv, run.json\n", text, folder_.string(), r.frames);
+}
+
+}  // namespace
+
+int run(const RunOptions& options) { return Run(options).go(); }
+
+}  // namespace tsubu::app

@@ -1,0 +1,42 @@
+#pragma once
+// run.json: what was run, with what, and how it went.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/build.h"
+#include "sim/simulation.h"
+
+namespace tsubu::app {
+
+struct RunReport {
+  std::string scene;         ///< path as given
+  std::string title;
+  int threads = 1;
+  std::string isa;
+  std::string ended;         ///< "complete", "interrupted" or "failed"
+  std::string failure;       ///< why, when it failed
+  scene::FramePlan plan;
+  double slowMotion = 1;
+  double frameRate = 30;     ///< of the film, 1/s
+  std::uint64_t steps = 0;
+  double simulatedTime = 0, wallTime = 0, simulationTime = 0;  ///< s
+  std::uint64_t grainSteps = 0;
+  std::size_t grains = 0;
+  sim::Counts counts;
+  std::vector<std::string> counters;
+  std::vector<sim::LostGrain> lostGrains;
+  bool ledger = true;
+  double energyResidual = 0;       ///< at the end, as a fraction of the energy turned over
+  double worstEnergyResidual = 0;  ///< of any row of the ledger
+  std::string stateHash;
+  std::size_t frames = 0;
+  std::string renderer;
+  std::vector<std::string> warnings;
+};
+
+/// Writes the report, complete or not at all. Throws Error(files).
+void writeReport(const std::filesystem::path& path, const RunReport& report);
+
+}  // namespace tsubu::app
