@@ -81,6 +81,7 @@ void checkStyle(const Style& style) {
   complaints.range("strength of the sun", style.light.sun, 0, 4);
   complaints.range("strength of the sky", style.light.sky, 0, 4);
   complaints.range("strength of the shadows", style.light.shadowStrength, 0, 1);
+  complaints.range("softness of the shadows", style.light.softness, 0, 0.2);
   complaints.range("strength of the ambient occlusion", style.light.occlusionStrength, 0, 2);
   if (style.grains.range) {
     const auto [low, high] = *style.grains.range;

@@ -1,5 +1,7 @@
 #include "render/painter.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "render/colour_map.h"
@@ -13,6 +15,9 @@ int shadowTexels(const Picture& picture) {
   const int wanted = picture.quality == Quality::draft ? 1024 : 2048;
   return picture.height <= 240 ? std::min(wanted, 1024) : wanted;
 }
+
+constexpr int coarseSize = 256;         // texels along the side of the map that finds penumbras
+constexpr double widestPenumbra = 20;   // texels of the fine map: `widest` of shadow.glsl
 
 Vec3 encodedColour(Colour c) { return Vec3(c.red, c.green, c.blue) / 255.0; }
 
@@ -28,22 +33,24 @@ Painter::Painter(const Style& style, const std::vector<WallLook>& looks, int sid
       geometry_(gl_),
       grainProgram_(gl_, "grain.vert", "grain.frag"),
       wallProgram_(gl_, "wall.vert", "wall.frag"),
-      occlusionProgram_(gl_, "occlusion.vert", "occlusion.frag"),
+      occlusionProgram_(gl_, "occlusion.vert", "occlusion.frag", {fmt::format("SIDE {}", side)}),
       sheetProgram_(gl_, "sheet.vert", "sheet.frag"),
       shadowDiscProgram_(gl_, "shadow_disc.vert", "shadow_disc.frag"),
       shadowWallProgram_(gl_, "shadow_wall.vert", "shadow_wall.frag"),
-      resolveProgram_(gl_, "screen.vert", "resolve.frag"),
+      resolveProgram_(gl_, "screen.vert", "resolve.frag", {fmt::format("SIDE {}", side)}),
       grains_(gl_), neighbours_(gl_), surroundings_(gl_), walls_(gl_), sheets_(gl_), sunDiscs_(gl_), sunWalls_(gl_), looks_(gl_),
       names_(gl_, GL_R32UI, width_, height_),
       depths_(gl_, GL_DEPTH_COMPONENT32F, width_, height_),
       wallShares_(gl_, GL_R8, style.picture.width, style.picture.height),
       sheetColours_(gl_, GL_RGBA8, width_, height_),
       shadowMap_(gl_, GL_DEPTH_COMPONENT32F, shadowSize_, shadowSize_),
+      coarseMap_(gl_, GL_DEPTH_COMPONENT32F, coarseSize, coarseSize),
       colours_(gl_, GL_RGBA8, style.picture.width, style.picture.height),
       namesTarget_(gl_, &names_, &depths_),
       wallSharesTarget_(gl_, &wallShares_, nullptr),
       sheetsTarget_(gl_, &sheetColours_, &depths_),
       shadowTarget_(gl_, nullptr, &shadowMap_),
+      coarseTarget_(gl_, nullptr, &coarseMap_),
       coloursTarget_(gl_, &colours_, nullptr) {
   std::vector<float> texels;
   for (const WallLook& look : looks) {
@@ -85,23 +92,35 @@ void Painter::setView(const Program& program, const Frame& frame) const {
 }
 
 void Painter::drawShadowMap(const Frame& frame) {
-  const float farthest = 1;
-  gl_.ClearNamedFramebufferfv(shadowTarget_.name(), GL_DEPTH, 0, &farthest);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, shadowTarget_.name());
-  gl_.Viewport(0, 0, shadowSize_, shadowSize_);
   gl_.Disable(GL_BLEND);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthMask(GL_TRUE);
   gl_.DepthFunc(GL_LESS);
+  drawShadows(frame, shadowTarget_, shadowSize_, {{0, 0}}, 0);
+  // What may touch a penumbra: everything, widened by the widest of them and by a texel.
+  const double margin = 2 * widestPenumbra / shadowSize_ + 2.0 / coarseSize;
+  drawShadows(frame, coarseTarget_, coarseSize, {{0, 0}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}, margin);
+}
+
+void Painter::drawShadows(const Frame& frame, const Framebuffer& target, int size, const std::vector<Eigen::Vector2d>& shifts,
+                          double margin) {
+  const float farthest = 1;
+  gl_.ClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &farthest);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target.name());
+  gl_.Viewport(0, 0, size, size);
   shadowDiscProgram_.use();
   shadowDiscProgram_.bind("discs", 0, sunDiscs_.texture());
+  shadowDiscProgram_.set("margin", margin, margin);
   geometry_.drawQuads(frame.sunDiscCount);
   // A wall must not shade itself: it is drawn a little farther from the sun, the more the steeper.
   gl_.Enable(GL_POLYGON_OFFSET_FILL);
   gl_.PolygonOffset(2, 4);
   shadowWallProgram_.use();
   shadowWallProgram_.bind("walls", 0, sunWalls_.texture());
-  geometry_.drawTriangles(frame.sunWallTriangles);
+  for (const Eigen::Vector2d& shift : shifts) {
+    shadowWallProgram_.set("shift", shift.x() * margin, shift.y() * margin);
+    geometry_.drawTriangles(frame.sunWallTriangles);
+  }
   gl_.Disable(GL_POLYGON_OFFSET_FILL);
 }
 
@@ -138,7 +157,6 @@ void Painter::drawWallShares(const Frame& frame) {
   gl_.BlendFunc(GL_ZERO, GL_SRC_COLOR);
   occlusionProgram_.use();
   setView(occlusionProgram_, frame);
-  occlusionProgram_.set("side", side_);
   occlusionProgram_.bind("surroundings", 0, surroundings_.texture());
   occlusionProgram_.bind("names", 1, names_.name());
   occlusionProgram_.bind("depths", 2, depths_.name());
@@ -179,7 +197,7 @@ void Painter::resolve(const Frame& frame, const Vec3& up) {
   p.bind("wallShares", 5, wallShares_.name());
   p.bind("sheets", 6, sheetColours_.name());
   p.bind("shadowMap", 7, shadowMap_.name());
-  p.set("side", side_);
+  p.bind("coarseMap", 8, coarseMap_.name());
   p.set("hasSheets", frame.sheetTriangles > 0 ? 1 : 0);
   p.set("pictureSize", style_.picture.width, style_.picture.height);
   p.set("skyTop", encodedColour(style_.background.top));
@@ -194,6 +212,8 @@ void Painter::resolve(const Frame& frame, const Vec3& up) {
   // From the frame of the eye to the shadow map: x and y to texture coordinates (rows from the top), z to depth.
   const SunView& sun = frame.sun;
   p.set("shadowOffset", 3 * std::max(sun.half.x(), sun.half.y()) / shadowSize_);
+  const Vec3 texel = 2 * sun.half / shadowSize_;
+  p.set("penumbra", style_.light.softness * 2 * sun.half.z() / texel.x(), style_.light.softness * 2 * sun.half.z() / texel.y());
   const Mat3 turn = sun.rotation * frame.view.rotation.transpose();
   const Vec3 origin = sun.rotation * frame.view.eye - sun.centre;
   const Vec3 scale(0.5 / sun.half.x(), -0.5 / sun.half.y(), -0.5 / sun.half.z());

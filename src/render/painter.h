@@ -30,6 +30,7 @@ class Painter {
   void upload(const Frame& frame);
   void setView(const Program& program, const Frame& frame) const;
   void drawShadowMap(const Frame& frame);
+  void drawShadows(const Frame& frame, const Framebuffer& target, int size, const std::vector<Eigen::Vector2d>& shifts, double margin);
   void drawNames(const Frame& frame);
   void drawWallShares(const Frame& frame);
   void drawSheets(const Frame& frame);
@@ -44,8 +45,8 @@ class Painter {
   Geometry geometry_;
   Program grainProgram_, wallProgram_, occlusionProgram_, sheetProgram_, shadowDiscProgram_, shadowWallProgram_, resolveProgram_;
   FloatArray grains_, neighbours_, surroundings_, walls_, sheets_, sunDiscs_, sunWalls_, looks_;
-  Texture names_, depths_, wallShares_, sheetColours_, shadowMap_, colours_;
-  Framebuffer namesTarget_, wallSharesTarget_, sheetsTarget_, shadowTarget_, coloursTarget_;
+  Texture names_, depths_, wallShares_, sheetColours_, shadowMap_, coarseMap_, colours_;
+  Framebuffer namesTarget_, wallSharesTarget_, sheetsTarget_, shadowTarget_, coarseTarget_, coloursTarget_;
 };
 
 }  // namespace tsubu::render

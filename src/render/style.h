@@ -72,6 +72,7 @@ struct Light {
   double sky = 1;                ///< strength of the sky, 0 to 4
   bool shadows = true;
   double shadowStrength = 0.85;  ///< 0 (none) to 1 (no sun at all in the shadow)
+  double softness = 0.03;        ///< of shadows: width of a penumbra per distance to what throws it, 0 to 0.2
   bool ambientOcclusion = true;  ///< neighbours hide the sky: what makes a heap read as a heap
   double occlusionStrength = 1;  ///< 0 (none) to 2 (darker than nature); 1 is the geometric share of the sky that is hidden
 

@@ -1,3 +1,4 @@
+// SIDE, a constant of the build: samples along the side of a pixel.
 // Multiplied into the picture of what the walls still see of the sky.
 #include "rays.glsl"
 #include "names.glsl"
@@ -5,13 +6,12 @@
 
 uniform usampler2D names;
 uniform sampler2D depths;
-uniform int side;  // samples along the side of a pixel
 
 flat in vec4 ball;
 layout(location = 0) out float share;
 
 void main() {
-  ivec2 sampled = ivec2(gl_FragCoord.xy) * side + (side >> 1);
+  ivec2 sampled = ivec2(gl_FragCoord.xy) * SIDE + SIDE / 2;
   uint name = texelFetch(names, sampled, 0).r;
   vec3 point = rayThrough(vec2(sampled) + 0.5) * (nearPlane / max(texelFetch(depths, sampled, 0).r, 1e-9));
   vec3 towards = ball.xyz - point;

@@ -7,5 +7,5 @@ float painted(int pattern, vec3 n, float width) {
   float belt = 1.0 - smoothstep(-width, width, abs(n.z) - 0.24);
   float caps = smoothstep(-width, width, abs(n.z) - 0.80);
   float tone = pattern == 1 ? halves : 1.0 - max(belt, caps);
-  return pattern == 0 ? 1.0 : mix(0.42, 1.0, tone);
+  return pattern == 0 ? 1.0 : mix(0.45, 1.0, tone);
 }

@@ -1,3 +1,4 @@
+// SIDE, a constant of the build: samples along the side of a pixel.
 // From names to light: each surface that has a sample in the pixel is shaded once, where the mean of its samples lies, and counts by the
 // number of its samples.
 #include "rays.glsl"
@@ -13,7 +14,6 @@ uniform sampler2D wallShares;   // what the walls still see of the sky
 uniform sampler2D sheets;       // translucent walls and lines, premultiplied, encoded
 uniform samplerBuffer neighbours;  // offset and radius in radii of the grain
 uniform samplerBuffer looks;    // one texel a look: linear colour, 1 for a ground
-uniform int side;               // samples along the side of a pixel
 uniform bool hasSheets;
 uniform vec2 pictureSize;       // pixels
 uniform vec3 skyTop, skyBottom; // background, encoded
@@ -52,7 +52,7 @@ Surface grainAt(int grain, vec3 ray) {
   s.point = hit * ray;
   s.normal = normalize(s.point - ball.xyz);
   float facing = max(-dot(s.normal, ray) * inversesqrt(square), 0.15);
-  float width = 0.75 * hit * length(rays.xy) * float(side) / (ball.w * facing);
+  float width = 0.75 * hit * length(rays.xy) * float(SIDE) / (ball.w * facing);
   s.paint = paint.rgb * painted(int(paint.a), turnedBy(grainTurn(grain), s.normal), width);
   s.gloss = 1.0;
   s.share = 1.0;
@@ -78,57 +78,55 @@ vec3 lit(Surface s, vec3 ray) {
 }
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy), first = pixel * side;
-  int samples = side * side;
+  const int samples = SIDE * SIDE;
+  ivec2 pixel = ivec2(gl_FragCoord.xy), first = pixel * SIDE;
   vec3 backdrop = mix(skyTop, skyBottom, gl_FragCoord.y / pictureSize.y);
   vec3 backLight = decoded(backdrop);
   float wallShare = texelFetch(wallShares, pixel, 0).r;
+  uint seen[samples];
+  for (int k = 0; k < samples; ++k) seen[k] = texelFetch(names, first + ivec2(k % SIDE, k / SIDE), 0).r;
   vec3 sum = vec3(0.0);
   int covered = 0;
-  int left = (1 << samples) - 1;  // samples not yet accounted for
-  while (left != 0) {
-    int leader = findLSB(left);
-    uint name = texelFetch(names, first + ivec2(leader % side, leader / side), 0).r;
-    uint key = isWall(name) ? name >> lookShift : name;
-    vec2 where = vec2(0.0);
-    float depth = 0.0;
-    vec3 normal = vec3(0.0);
+  for (;;) {
+    // The first name left, its samples, and their mean place; they are then crossed out.
+    uint name = 0u;
+    ivec2 leader = first;
+    for (int k = samples - 1; k >= 0; --k) {
+      leader = seen[k] != 0u ? first + ivec2(k % SIDE, k / SIDE) : leader;
+      name = seen[k] != 0u ? seen[k] : name;
+    }
+    if (name == 0u) break;
+    bool wall = isWall(name);
+    uint key = wall ? name >> lookShift : name;
+    vec2 middle = vec2(0.0);
     int count = 0;
     for (int k = 0; k < samples; ++k) {
-      ivec2 at = first + ivec2(k % side, k / side);
-      uint other = texelFetch(names, at, 0).r;
-      bool same = (left & (1 << k)) != 0 && (isWall(other) ? other >> lookShift : other) == key;
-      left &= same ? ~(1 << k) : -1;
+      bool same = (isWall(seen[k]) ? seen[k] >> lookShift : seen[k]) == key;
+      middle += same ? vec2(k % SIDE, k / SIDE) : vec2(0.0);
       count += same ? 1 : 0;
-      where += same ? vec2(at) + 0.5 : vec2(0.0);
-      depth += same ? texelFetch(depths, at, 0).r : 0.0;
-      normal += same ? normalOf(other) : vec3(0.0);
+      seen[k] = same ? 0u : seen[k];
     }
-    vec3 ray = rayThrough(where / float(count));
-    bool wall = isWall(name);
-    Surface s = grainAt(wall || name == 0u ? 0 : int(name) - 1, ray);
+    vec3 ray = rayThrough((wall ? vec2(leader) : vec2(first) + middle / float(count)) + 0.5);
+    Surface s = grainAt(wall ? 0 : int(name) - 1, ray);
+    vec4 look = texelFetch(looks, lookOf(name));
+    float depth = texelFetch(depths, leader, 0).r;
     float veil = 0.0;
     if (wall) {
-      vec4 look = texelFetch(looks, lookOf(name));
-      s.point = ray * (nearPlane * float(count) / max(depth, 1e-12));
-      s.normal = normalize(normal);
+      s.point = ray * (nearPlane / depth);
+      s.normal = normalOf(name);
       s.paint = look.rgb;
       s.share = wallShare;
-      s.gloss = 0.25;
+      s.gloss = 0.25 * (1.0 - look.a);
       veil = look.a * smoothstep(0.6, 2.4, length(s.point - vec3(0.0, 0.0, -focus)) / focus);
-      s.gloss *= 1.0 - look.a;
     }
-    vec3 light = mix(softened(lit(s, ray)), backLight, veil);
-    bool something = name != 0u;
-    sum += something ? light * float(count) : vec3(0.0);
-    covered += something ? count : 0;
+    sum += mix(softened(lit(s, ray)), backLight, veil) * float(count);
+    covered += count;
   }
-  float empty = float(samples - covered);
-  vec3 mixed = encoded((sum + backLight * empty) / float(samples));
+  vec3 mixed = encoded((sum + backLight * float(samples - covered)) / float(samples));
   vec3 result = covered == 0 ? backdrop : mixed;
   if (hasSheets) {
     vec4 over = vec4(0.0);
-    for (int k = 0; k < samples; ++k) over += texelFetch(sheets, first + ivec2(k % side, k / side), 0);
+    for (int k = 0; k < samples; ++k) over += texelFetch(sheets, first + ivec2(k % SIDE, k / SIDE), 0);
     over /= float(samples);
     result = result * (1.0 - over.a) + over.rgb;
   }

@@ -1,27 +1,37 @@
-// How much of the sun a point sees: 4×4 texels of the shadow map, weighted by a tent.
-uniform sampler2D shadowMap;
+// How much of the sun a point sees. The sun is a disc, so shadows soften with the distance between what throws and what receives them:
+// a coarse map, whose discs are widened by the widest penumbra, tells that distance (and where there is no shadow near, and nothing to do);
+// then the texels of the fine map within the penumbra are weighted by a tent.
+uniform sampler2D shadowMap, coarseMap;
 uniform vec4 sunX, sunY, sunZ;  // frame of the eye to the map: texture coordinates, depth
+uniform vec2 penumbra;          // texels of the fine map per unit of depth
 
-vec4 litOf(vec2 at, float depth) {
-  return step(vec4(depth), textureGather(shadowMap, at));
-}
+const float narrowest = 2.0;  // texels: half the width of the tent, to smooth the texels themselves
+const float widest = 20.0;    // as in painter.cpp
+const float taps = 6.0;       // blocks of 2×2 texels along a side, at most
 
 float sunlight(vec3 point) {
   vec4 p = vec4(point, 1.0);
-  vec3 q = vec3(dot(sunX, p), dot(sunY, p), dot(sunZ, p));
-  vec2 size = vec2(textureSize(shadowMap, 0));
-  vec2 texel = q.xy * size - 0.5;
-  vec2 base = floor(texel), f = texel - base;
-  vec2 corner = (base + 0.5) / size;  // between four texels when one further
-  vec2 one = 1.0 / size;
-  // A gather yields (0,1), (1,1), (1,0), (0,0) of its 2×2 block.
-  vec4 a = litOf(corner + vec2(-0.5, -0.5) * one, q.z);
-  vec4 b = litOf(corner + vec2(1.5, -0.5) * one, q.z);
-  vec4 c = litOf(corner + vec2(-0.5, 1.5) * one, q.z);
-  vec4 d = litOf(corner + vec2(1.5, 1.5) * one, q.z);
-  vec4 x = vec4(1.0 - f.x, 2.0 - f.x, 1.0 + f.x, f.x), y = vec4(1.0 - f.y, 2.0 - f.y, 1.0 + f.y, f.y);
-  float lit = y.x * (x.x * a.w + x.y * a.z + x.z * b.w + x.w * b.z) + y.y * (x.x * a.x + x.y * a.y + x.z * b.x + x.w * b.y) +
-              y.z * (x.x * c.w + x.y * c.z + x.z * d.w + x.w * d.z) + y.w * (x.x * c.x + x.y * c.y + x.z * d.x + x.w * d.y);
+  vec3 q = vec3(dot(sunX, p), dot(sunY, p), min(dot(sunZ, p), 1.0));  // beyond the map nothing stands in the way
   bool within = all(greaterThan(q.xy, vec2(0.0))) && all(lessThan(q.xy, vec2(1.0)));
-  return within ? lit / 16.0 : 1.0;
+  vec4 near = textureGather(coarseMap, q.xy);
+  float blocker = min(min(near.x, near.y), min(near.z, near.w));
+  bool shaded = within && blocker < q.z;
+  vec2 reach = clamp(penumbra * (q.z - blocker), narrowest, widest);
+  vec2 size = vec2(textureSize(shadowMap, 0));
+  vec2 place = q.xy * size - 0.5;
+  vec2 stride = max(ceil(2.0 * reach / taps), 2.0);
+  vec2 blocks = shaded ? ceil(2.0 * reach / stride) : vec2(0.0);
+  vec2 first = floor(place) - floor(0.5 * stride * (blocks - 1.0) + 0.5);
+  float lit = 0.0, all = 0.0;
+  for (float j = 0.0; j < blocks.y; ++j) {
+    for (float i = 0.0; i < blocks.x; ++i) {
+      vec2 texel = first + stride * vec2(i, j);
+      vec4 open = step(q.z, textureGather(shadowMap, (texel + 1.0) / size));  // texels (0,1), (1,1), (1,0), (0,0) of the block
+      vec2 a = max(1.0 - abs(texel - place) / reach, 0.0), b = max(1.0 - abs(texel + 1.0 - place) / reach, 0.0);
+      vec4 weight = vec4(a.x * b.y, b.x * b.y, b.x * a.y, a.x * a.y);
+      lit += dot(open, weight);
+      all += dot(weight, vec4(1.0));
+    }
+  }
+  return all > 0.0 ? lit / all : 1.0;
 }

@@ -1,5 +1,7 @@
 uniform samplerBuffer walls;  // one texel a vertex: place in the frame of the sun
+uniform vec2 shift;
 
 void main() {
-  gl_Position = vec4(texelFetch(walls, gl_VertexID).xyz, 1.0);
+  vec3 place = texelFetch(walls, gl_VertexID).xyz;
+  gl_Position = vec4(place.xy + shift, place.z, 1.0);
 }
