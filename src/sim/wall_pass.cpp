@@ -107,8 +107,10 @@ void WallPass::build(const State& state, const Slabs& slabs, double skin, const 
   }
 }
 
-/// Contacts on the bench, and where each came from.
+/// Contacts on the bench, and where each came from. The arrays are filled as far as `count` says.
 struct WallPass::Batch {
+  Batch(WallKernel k, bool withAccounts, Stage& bench, Accounts& sums) : kernel(k), account(withAccounts), stage(bench), accounts(sums) {}
+
   WallKernel kernel;
   bool account;
   Stage& stage;
@@ -123,7 +125,8 @@ void WallPass::evaluateSlab(int slabNumber, const PassContext& context, WallKern
   SlabWalls& slab = slabs_[static_cast<std::size_t>(slabNumber)];
   slab.lastWork = 0;
   slab.tunnelled.clear();
-  Batch batch{kernel, account, stage, accounts, 0, {}, {}, {}, {}};
+  if (slab.groups.empty()) return;
+  Batch batch(kernel, account, stage, accounts);
   for (WallGroup& group : slab.groups) evaluateGroup(slab, group, context, batch);
   flush(slab, context, batch);
   slab.work += slab.lastWork;
