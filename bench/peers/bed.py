@@ -145,3 +145,44 @@ thermo_modify format float %.10g
 thermo {OUTPUT_EVERY}
 run {steps}
 """)
+
+
+def write_tsubu(directory, grains, steps):
+    write_csv(directory / "bed.grains.csv", grains)
+    length = sum(component**2 for component in GRAVITY_DIRECTION) ** 0.5
+    gravity = [GRAVITY * component / length for component in GRAVITY_DIRECTION]
+    walls = "".join(f"[walls.{name}]\nplane = {{ point = {point}, normal = {normal} }}\n"
+                    for name, point, normal in [("floor", [0, 0, 0], [0, 0, 1]),
+                                                ("left", [0, 0, 0], [1, 0, 0]), ("right", [SIDE, 0, 0], [-1, 0, 0]),
+                                                ("front", [0, 0, 0], [0, 1, 0]), ("back", [0, SIDE, 0], [0, -1, 0])])
+    (directory / "bed.toml").write_text(f"""\
+title = "A settled bed in a box that tilts by thirty degrees"
+
+[simulation]
+end = {steps * TIME_STEP!r}
+gravity = {gravity}
+integrator = "symplectic_euler"
+time_step = {TIME_STEP}
+ledger = false
+
+[contact]
+tension = true
+
+[materials.glass]
+density = {DENSITY}
+
+[pairs]
+normal_stiffness = {NORMAL_STIFFNESS}
+tangential_stiffness = {TANGENTIAL_STIFFNESS}
+normal_damping_rate = {NORMAL_DAMPING_RATE}
+tangential_damping_rate = {TANGENTIAL_DAMPING_RATE}
+friction = {FRICTION}
+
+[grains.bed]
+source = "file"
+file = "bed.grains.csv"
+
+{walls}
+[output]
+frame_interval = {OUTPUT_EVERY * TIME_STEP!r}
+""")
