@@ -50,9 +50,9 @@ struct ElasticPlasticRolling {
     const double limit = p.rollingFriction * c.effectiveRadius * std::abs(normal.force);
     const double size = norm(trial);
     const bool yields = size > limit;
-    const V3 spring = (yields ? limit / larger(size, tiny) : 1.0) * trial;
-    memory = select(yields, spring, before + gain);
-    return {-spring - (yields ? 0.0 : damping) * rolling, stored(p, c, before), stored(p, c, memory)};
+    const double keep = yields ? limit / larger(size, tiny) : 1.0;
+    memory = keep * (before + gain);
+    return {-keep * trial - (yields ? 0.0 : damping) * rolling, stored(p, c, before), stored(p, c, memory)};
   }
 };
 

@@ -2,7 +2,7 @@
 // Coulomb friction with a tangential spring that remembers.
 //
 //   T1   F_t = −k_t δ_t − η_t v_t
-//   T2   |F_t| ≤ μ |F_n|; beyond it the force is cut back along its direction, and the spring so that spring + dashpot = force
+//   T2   |F_t| ≤ μ |F_n|; beyond it spring and dashpot are cut back by the same factor, so that together they are the limit
 //   T3   δ_t is carried with the contact: turned with n and with a mean spin about n, kept tangential at unchanged length
 //   T4   η_t = η_n √(k_t/k_n): the damping ratio of the normal contact; or η_t = m* γ_t from a rate
 //
@@ -12,7 +12,11 @@
 // The memory is k_t δ_t in N. It is advanced with the slip of a whole step and read at `lead` of a step, so that in velocity Verlet
 // the spring's work over a step is exactly the change of its energy: a sticking contact leaks nothing (docs/physics.md, T5).
 //
-// Source: Cundall & Strack 1979; cutting back after Luding, Granular Matter 10 (2008) 235. Proven by tests/sim/laws/spring_friction_test.cpp.
+// Cutting back is passive: what the spring loses beyond its work is friction, and never less than nothing. Luding (Granular Matter 10
+// (2008) 235) keeps the dashpot whole and gives the spring the rest, limit − η_t v_t; where the dashpot alone exceeds the limit, that
+// charges a spring that pushes along the slip, with energy that nobody spent. Steady sliding below it ends in the same state.
+//
+// Source: Cundall & Strack 1979; cutting back the spring at the limit after Luding. Proven by tests/sim/laws/spring_friction_test.cpp.
 
 #include "sim/laws/tangential.h"
 
@@ -58,10 +62,10 @@ struct SpringFriction {
     const V3 trial = before + step.lead * gain + damping * c.slip;
     const double limit = p.friction * std::abs(normal.force);
     const double size = norm(trial);
-    const bool slides = size > limit;
-    const V3 force = (slides ? -(limit / larger(size, tiny)) : -1.0) * trial;
-    memory = select(slides, -force - damping * c.slip, before + gain);
-    return {force, stored(p, before), stored(p, memory), slides ? 0.0 : damping * norm2(c.slip) * step.dt};
+    const double keep = size > limit ? limit / larger(size, tiny) : 1.0;
+    const V3 force = -keep * trial;
+    memory = keep * (before + gain);
+    return {force, stored(p, before), stored(p, memory), keep * damping * norm2(c.slip) * step.dt};
   }
 };
 
