@@ -91,6 +91,7 @@ void gather(const PassContext& context, const std::int32_t* is, const std::int32
 template <class Law, bool oneClass, bool accounts, bool weighted>
 void compute(const PassContext& context, int count, Stage& s, double* const* memory) {
   const auto* const pairs = static_cast<const typename Law::Pair*>(context.pairs);
+  const typename Law::Pair only = pairs[0];  // a copy that no store can change
   const StepOf step = context.step;
   constexpr int rollingAt = Law::Tangential::stateSize;
   double* const t0 = memory[0];
@@ -103,21 +104,24 @@ void compute(const PassContext& context, int count, Stage& s, double* const* mem
   for (int q = 0; q < count; ++q) {
     const V3 d{s.dx[q], s.dy[q], s.dz[q]};
     const double distance = norm(d);
-    const double inverse = 1 / larger(distance, tiny);
     const bool touching = distance < s.radiusSum[q];
+    // One division for three reciprocals: divisions and roots are what this loop waits for.
+    const double safeDistance = larger(distance, tiny);
+    const double reciprocal = 1 / (safeDistance * s.radiusSum[q] * s.inverseMassSum[q]);
     Contact c;
-    c.n = inverse * d;
+    c.n = (reciprocal * s.radiusSum[q] * s.inverseMassSum[q]) * d;
     c.overlap = s.radiusSum[q] - distance;
     const V3 dv{s.dvx[q], s.dvy[q], s.dvz[q]};
     c.separationSpeed = dot(dv, c.n);
-    c.effectiveMass = 1 / s.inverseMassSum[q];
+    c.effectiveMass = reciprocal * safeDistance * s.radiusSum[q];
     double arm = 0;
     if constexpr (Law::turns) {
-      arm = distance / s.radiusSum[q];
+      const double inverseRadiusSum = reciprocal * safeDistance * s.inverseMassSum[q];
+      arm = distance * inverseRadiusSum;
       const V3 spin{s.sx[q], s.sy[q], s.sz[q]};
       c.slip = dv - c.separationSpeed * c.n - arm * cross(spin, c.n);
       // Between grains the mean is weighted with the radii, which the sum of r ω gives for nothing; any mean turns with the pair.
-      const V3 frameSpin = weighted ? V3{s.ox[q], s.oy[q], s.oz[q]} : (1 / s.radiusSum[q]) * spin;
+      const V3 frameSpin = weighted ? V3{s.ox[q], s.oy[q], s.oz[q]} : inverseRadiusSum * spin;
       c.frameAngle = step.dt * dot(frameSpin, c.n);
     }
     if constexpr (Law::rolls) {
@@ -130,7 +134,7 @@ void compute(const PassContext& context, int count, Stage& s, double* const* mem
     if constexpr (Law::Rolling::stateSize > 0) rolling = {r0[q], r1[q], r2[q]};
     const V3 tangentialBefore = tangential, rollingBefore = rolling;
     ContactEnergy energy{};
-    const typename Law::Pair& pair = pairs[oneClass ? 0 : s.pairClass[q]];
+    const typename Law::Pair& pair = oneClass ? only : pairs[s.pairClass[q]];
     const ContactForce result = Law::template evaluate<accounts>(pair, c, step, tangential, rolling, energy);
     const double share = weighted ? s.weight[q] : 1.0;
     s.fx[q] = touching ? share * result.force.x : 0;

@@ -55,7 +55,8 @@ struct LinearNormal {
   }
 
   TSUBU_LAW NormalForce force(const Pair& p, const Contact& c) {
-    const double damping = p.dampingPerRootMass * std::sqrt(c.effectiveMass) + p.dampingPerMass * c.effectiveMass;
+    double damping = p.dampingPerMass * c.effectiveMass;
+    if (p.dampingPerRootMass != 0) damping += p.dampingPerRootMass * std::sqrt(c.effectiveMass);
     const double elastic = p.stiffness * c.overlap;
     const double force = larger(elastic - damping * c.separationSpeed, p.least);
     return {force, elastic, 0.5 * elastic * c.overlap, p.stiffness, damping};
