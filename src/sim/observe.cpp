@@ -140,7 +140,7 @@ void Simulation::Impl::addLoads(std::vector<double>& load) const {
       c.separationSpeed = dv.dot(n);
       c.effectiveMass = mass;
       c.effectiveRadius = radius;
-      return c.overlap > 0 ? std::abs(Law::Normal::force(constants[pair].normal, c).force) : 0.0;
+      return c.overlap > 0 ? std::abs(Law::Normal::force(constants[pair].normal, c, {model.timeStep, lead}).force) : 0.0;
     };
     const std::size_t n = model.materials.size();
     for (const SlabPairs& slab : pairs.slabs()) {

@@ -47,7 +47,7 @@ struct ContactLaw {
   template <bool withEnergy>
   TSUBU_LAW ContactForce evaluate(const Pair& p, const Contact& c, StepOf step, V3& tangentialMemory, V3& rollingMemory,
                                   ContactEnergy& energy) {
-    const NormalForce normal = N::force(p.normal, c);
+    const NormalForce normal = N::force(p.normal, c, step);
     ContactForce result{normal.force * c.n, {0, 0, 0}, {0, 0, 0}};
     if constexpr (withEnergy) {
       energy = {normal.energy, 0, 0, (normal.elastic - normal.force) * c.separationSpeed * step.dt, 0, 0, 0};

@@ -9,7 +9,7 @@
 //
 // Damping from the restitution coefficient e (damping_from_restitution.h):
 //   N3   η_n = 2 β̂(e) √(m* k_n)    with β̂ the damping ratio that gives e, with tension or without
-// or from a rate: N4  η_n = m* γ_n.
+// or from a rate: N4  η_n = m* γ_n. In the steps in which a contact begins or ends the dashpot sees N5 (normal.h).
 //
 // Source: Cundall & Strack 1979; the damped oscillator of a contact, with N3 inverted for both ends of a contact.
 // Holds for any overlap; stiffness does not depend on radius. Proven by tests/sim/laws/linear_normal_test.cpp.
@@ -54,11 +54,11 @@ struct LinearNormal {
     return p.dampingPerRootMass * std::sqrt(effectiveMass) + p.dampingPerMass * effectiveMass;
   }
 
-  TSUBU_LAW NormalForce force(const Pair& p, const Contact& c) {
+  TSUBU_LAW NormalForce force(const Pair& p, const Contact& c, StepOf step) {
     double damping = p.dampingPerMass * c.effectiveMass;
     if (p.dampingPerRootMass != 0) damping += p.dampingPerRootMass * std::sqrt(c.effectiveMass);
     const double elastic = p.stiffness * c.overlap;
-    const double force = larger(elastic - damping * c.separationSpeed, p.least);
+    const double force = larger(elastic - damping * sampledSpeed(c, step), p.least);
     return {force, elastic, 0.5 * elastic * c.overlap, p.stiffness, damping};
   }
 };

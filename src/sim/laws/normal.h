@@ -14,4 +14,13 @@ struct NormalForce {
   double damping;    ///< η_n, kg/s
 };
 
+/// N5: the separation speed that a dashpot is to see in this step. A dashpot's force jumps when a contact begins (and, with tension,
+/// when it ends) somewhere between two steps. The force of step n stands for the time from n − ½ to n + ½; when the contact began
+/// within the last step, τ = δ/|v_n| ago, the dashpot acts for τ + ½ Δt of it, which η (½ |v_n| + δ/Δt) over Δt makes up for. Without
+/// it the restitution coefficient would depend on where in the step the grains happen to meet, by 0.3 % at a hundredth of a contact.
+TSUBU_INLINE double sampledSpeed(const Contact& c, StepOf step) {
+  const double v = c.separationSpeed, speed = std::abs(v), grown = c.overlap / step.dt;
+  return grown < speed ? std::copysign(0.5 * speed + grown, v) : v;
+}
+
 }  // namespace tsubu::sim

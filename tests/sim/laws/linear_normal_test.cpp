@@ -7,6 +7,8 @@
 namespace tsubu::sim {
 namespace {
 
+constexpr StepOf step{1e-6, 0.5};
+
 Contact headOn(double overlap, double separationSpeed, double effectiveMass) {
   Contact c{};
   c.n = {0, 0, 1};
@@ -26,7 +28,7 @@ PropertyValues withRate() {
 TEST(LinearNormal, ForceIsSpringPlusDashpot) {
   const auto pair = LinearNormal::prepare(withRate(), true);
   const double m = 3e-5, delta = 2e-5, v = -0.04;
-  const NormalForce f = LinearNormal::force(pair, headOn(delta, v, m));
+  const NormalForce f = LinearNormal::force(pair, headOn(delta, v, m), step);
   EXPECT_DOUBLE_EQ(f.elastic, 1234 * delta);
   EXPECT_DOUBLE_EQ(f.force, 1234 * delta - 777 * m * v);  // N1, N4; approach pushes harder
   EXPECT_DOUBLE_EQ(f.energy, 0.5 * 1234 * delta * delta);
@@ -37,13 +39,13 @@ TEST(LinearNormal, ForceIsSpringPlusDashpot) {
 
 // The Article's −k_n δ n with its own positive overlap would attract.
 TEST(LinearNormal, OverlapRepels) {
-  EXPECT_GT(LinearNormal::force(LinearNormal::prepare(withRate(), false), headOn(1e-6, 0, 1e-5)).force, 0);
+  EXPECT_GT(LinearNormal::force(LinearNormal::prepare(withRate(), false), headOn(1e-6, 0, 1e-5), step).force, 0);
 }
 
 TEST(LinearNormal, PullsOnlyWhenAllowed) {
   const Contact parting = headOn(1e-6, 0.5, 3e-5);  // 1234e-6 N of spring against 0.0117 N of dashpot
-  EXPECT_EQ(LinearNormal::force(LinearNormal::prepare(withRate(), false), parting).force, 0.0);
-  const NormalForce pulling = LinearNormal::force(LinearNormal::prepare(withRate(), true), parting);
+  EXPECT_EQ(LinearNormal::force(LinearNormal::prepare(withRate(), false), parting, step).force, 0.0);
+  const NormalForce pulling = LinearNormal::force(LinearNormal::prepare(withRate(), true), parting, step);
   EXPECT_DOUBLE_EQ(pulling.force, 1234e-6 - 777 * 3e-5 * 0.5);
   EXPECT_LT(pulling.force, 0);
 }
@@ -57,7 +59,7 @@ TEST(LinearNormal, DampingFollowsRestitutionAndEffectiveMass) {
     const auto pair = LinearNormal::prepare(values, tension);
     for (const double m : {1e-9, 2e-5, 3.0}) {
       const double expected = 2 * dampingRatioLinear(0.4, tension) * std::sqrt(m * 500);
-      EXPECT_NEAR(LinearNormal::force(pair, headOn(1e-5, 0.1, m)).damping, expected, 1e-14 * expected);
+      EXPECT_NEAR(LinearNormal::force(pair, headOn(1e-5, 0.1, m), step).damping, expected, 1e-14 * expected);
     }
   }
 }
@@ -66,7 +68,20 @@ TEST(LinearNormal, ElasticContactHasExactlyNoDashpot) {
   PropertyValues values;
   values[Property::normalStiffness] = 500;
   values[Property::restitution] = 1;
-  EXPECT_EQ(LinearNormal::force(LinearNormal::prepare(values, false), headOn(1e-5, -3, 1)).force, 500 * 1e-5);
+  EXPECT_EQ(LinearNormal::force(LinearNormal::prepare(values, false), headOn(1e-5, -3, 1), step).force, 500 * 1e-5);
+}
+
+// N5: a contact that began τ ago, τ below a step, has its dashpot at work for τ + ½ Δt of the step for which this force stands.
+TEST(LinearNormal, DashpotActsForThePartOfTheStepThatIsContact) {
+  const auto pair = LinearNormal::prepare(withRate(), true);
+  const double m = 3e-5, eta = 777 * m, v = 0.04;
+  for (const double tau : {0.05, 0.3, 0.5, 0.8, 0.999}) {
+    const double delta = tau * v * step.dt;
+    EXPECT_NEAR(LinearNormal::force(pair, headOn(delta, -v, m), step).force, 1234 * delta + eta * v * (tau + 0.5), 1e-12);
+    EXPECT_NEAR(LinearNormal::force(pair, headOn(delta, v, m), step).force, 1234 * delta - eta * v * (tau + 0.5), 1e-12);
+  }
+  const double whole = 1.001 * v * step.dt;
+  EXPECT_NEAR(LinearNormal::force(pair, headOn(whole, -v, m), step).force, 1234 * whole + eta * v, 1e-12);
 }
 
 }  // namespace
