@@ -28,14 +28,23 @@ void Simulation::Impl::prepareArrivals() {
   if (std::isfinite(interval)) stepsBetweenArrivals = static_cast<std::uint64_t>(std::max(1.0, std::floor(interval / model.timeStep)));
 }
 
-// A box around everything that is there, three times its size: a grain outside has left the scene.
+// A box around everything that is there, three times its size: a grain outside has left the scene. Where only unbounded planes say
+// how large the scene is, a grain may go as far as a thousand times its radius.
 void Simulation::Impl::chooseDomain() {
   if (!model.domain.isEmpty()) return;
   Box box;
-  for (const GrainRow& row : state.rows) box.extend(positionOf(row));
+  double largest = 0;
+  for (const GrainRow& row : state.rows) {
+    box.extend(positionOf(row));
+    largest = std::max(largest, row.radius);
+  }
   for (const Stream& stream : model.streams) box.extend(stream.region.bounds());
-  for (const Wall& wall : model.walls)
-    if (wall.surface->bounds().sizes().allFinite()) box.extend(wall.surface->bounds());
+  bool bounded = false;
+  for (const Wall& wall : model.walls) {
+    if (!wall.surface->bounds().sizes().allFinite()) continue;
+    box.extend(wall.surface->bounds());
+    bounded = true;
+  }
   for (const Sink& sink : model.sinks) {
     const Box bounds = sink.region.bounds();
     for (int axis = 0; axis < 3 && !box.isEmpty(); ++axis) {
@@ -47,7 +56,12 @@ void Simulation::Impl::chooseDomain() {
     }
   }
   if (box.isEmpty()) box.extend(Vec3(Vec3::Zero()));
-  const double margin = std::max(box.sizes().norm(), 1e-3);
+  for (const Stream& stream : model.streams) largest = std::max(largest, stream.radii.largest());
+  for (const Wall& wall : model.walls) {
+    const auto plane = wall.surface->asPlane();
+    if (plane) box.extend(Vec3(box.center() - plane->signedDistance(box.center()) * plane->normal));
+  }
+  const double margin = std::max({box.sizes().norm(), 1e-3, bounded ? 0.0 : 1000 * largest});
   model.domain = Box(box.min() - Vec3::Constant(margin), box.max() + Vec3::Constant(margin));
 }
 
