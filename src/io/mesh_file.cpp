@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include <assimp/postprocess.h>
@@ -14,27 +15,43 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "io/mesh_complete.h"
 
 namespace tsubu::io {
 
 namespace {
 
+/// `message` goes on after "The mesh file 'x' ".
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& message, const std::string& hint = {}) {
-  throw Error(ErrorKind::files, {{{path.string(), 0, 0}, message, hint}});
+  throw Error(ErrorKind::files, fmt::format("The mesh file '{}' {}", path.string(), message), hint);
+}
+
+std::string extensionOf(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
 }
 
 void checkFormat(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const char* known : {".stl", ".obj", ".ply", ".gltf", ".glb"})
-    if (extension == known) return;
-  refuse(path, fmt::format("The mesh file '{}' is of an unknown format.", path.string()), "Known are .stl, .obj, .ply, .gltf and .glb.");
+    if (extensionOf(path) == known) return;
+  refuse(path, "is of an unknown format.", "Known are .stl, .obj, .ply, .gltf and .glb.");
 }
 
-void checkReadable(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) refuse(path, fmt::format("The mesh file '{}' is a directory.", path.string()));
+std::string readBytes(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) refuse(path, "is a directory.");
   errno = 0;
-  if (!std::ifstream(path, std::ios::binary)) refuse(path, fmt::format("The mesh file '{}' cannot be opened: {}.", path.string(), std::strerror(errno)));
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse(path, fmt::format("cannot be opened: {}.", std::strerror(errno)));
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  return bytes.str();
+}
+
+void checkComplete(const std::filesystem::path& path, const std::string& bytes) {
+  if (extensionOf(path) == ".stl" && !isCompleteStl(bytes)) refuse(path, "breaks off before its end.");
+  if (extensionOf(path) == ".ply" && bytes.starts_with("ply") && !isCompletePly(bytes))
+    refuse(path, "breaks off before its end, or its header is not understood.");
 }
 
 /// How many triangles the polygons of a scene make.
@@ -78,9 +95,9 @@ void flatten(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& pa
 void checkTriangles(const std::filesystem::path& path, const TriangleMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const int v : mesh.triangles[t]) {
-      if (v < 0) refuse(path, fmt::format("Triangle {} of the mesh file '{}' names a vertex that does not exist.", t, path.string()));
+      if (v < 0) refuse(path, fmt::format("names a vertex that does not exist, in triangle {}.", t));
       if (!mesh.vertices[static_cast<std::size_t>(v)].allFinite())
-        refuse(path, fmt::format("Triangle {} of the mesh file '{}' has a vertex that is not a finite number.", t, path.string()));
+        refuse(path, fmt::format("has a vertex that is not a finite number, in triangle {}.", t));
     }
   }
 }
@@ -89,23 +106,21 @@ void checkTriangles(const std::filesystem::path& path, const TriangleMesh& mesh)
 
 TriangleMesh readMesh(const std::filesystem::path& path) {
   checkFormat(path);
-  checkReadable(path);
+  checkComplete(path, readBytes(path));
   // Nothing is joined, sorted or left out on the way: sim welds and repairs, and names what it does.
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path.string(), 0);
-  if (!scene || !scene->mRootNode)
-    refuse(path, fmt::format("The mesh file '{}' cannot be read: {}", path.string(), importer.GetErrorString()));
+  if (!scene || !scene->mRootNode) refuse(path, fmt::format("cannot be read. Its reader says: {}", importer.GetErrorString()));
   const std::size_t expected = countTriangles(*scene);
-  if (expected == 0) refuse(path, fmt::format("The mesh file '{}' holds no triangles.", path.string()));
+  if (expected == 0) refuse(path, "holds no triangles.");
   scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (!scene || countTriangles(*scene) != expected)
-    refuse(path, fmt::format("The mesh file '{}' holds a polygon that cannot be cut into triangles.", path.string()),
-           "Write the file with triangles only.");
+    refuse(path, "holds a polygon that cannot be cut into triangles.", "Write the file with triangles only.");
 
   TriangleMesh result;
   result.name = path.string();
   flatten(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), result);
-  if (result.triangles.empty()) refuse(path, fmt::format("The mesh file '{}' holds no triangles in any of its nodes.", path.string()));
+  if (result.triangles.empty()) refuse(path, "holds no triangles in any of its nodes.");
   checkTriangles(path, result);
   return result;
 }

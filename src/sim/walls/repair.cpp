@@ -61,7 +61,7 @@ class FaultList {
   [[noreturn]] void refuse() const {
     std::vector<Diagnostic> diagnostics;
     for (const MeshFault& fault : list())
-      if (fault.remedy == MeshRemedy::refused) diagnostics.push_back({{mesh_, 0, 0}, fault.sentence, "Mend the mesh in the program that wrote it."});
+      if (fault.remedy == MeshRemedy::refused) diagnostics.push_back({{}, fault.sentence, "Mend the mesh in the program that wrote it."});
     throw Error(ErrorKind::files, std::move(diagnostics));
   }
 
