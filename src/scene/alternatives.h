@@ -27,11 +27,11 @@ template <class Variant, class Each, class Title>
 void describeAlternative(Form& form, Variant& value, std::size_t index, Each&& each, Title&& title) {
   if (form.wantsAll()) {
     for (std::size_t i = 0; i < std::variant_size_v<Variant>; ++i) {
-      form.alternative(title(i));
+      form.beginAlternative(title(i));
       Variant example = makeAlternative<Variant>(i);
       std::visit(each, example);
+      form.endAlternative();
     }
-    form.alternative({});
   } else if (index != noneOfThem) {
     if (index != value.index()) value = makeAlternative<Variant>(index);
     std::visit(each, value);

@@ -189,7 +189,7 @@ FramePlan planFrames(const Scene& scene, const sim::Model& model, double speed, 
   double step;
   if (s.timeStep) {
     step = *s.timeStep;
-    plan.limitedBy = "given by the scene";
+    plan.limitedBy = "the scene (time_step)";
     if (step > choice.limit) {
       warnings.push_back(fmt::format("The time step of {:.4g} s is above the stability limit of {:.4g} s ({}).", step, choice.limit, choice.limitedBy));
     }

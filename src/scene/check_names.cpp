@@ -69,6 +69,7 @@ void checkNames(const Scene& scene, const PositionOf& positionOf, Findings& find
   if (scene.materials.empty()) check.complain({"materials"}, "The scene has no material.", "write [materials.glass] with a density");
   if (scene.grains.empty()) check.complain({"grains"}, "The scene has no grains.", "write [grains.bed] with a source");
   for (const Material& material : scene.materials) {
+    if (material.name.empty()) check.complain({"materials", ""}, "A material has no name.");
     for (const sim::PropertyInfo& info : sim::propertyTable()) {
       if (material.name == info.key) {
         check.complain({"materials", material.name}, fmt::format("A material cannot be called '{}'.", material.name), "it is the key of a property");

@@ -127,7 +127,18 @@ class ValueCheck {
   void source(const Path&, const GrainSource&, const FromFile&) {}
   void source(const Path&, const GrainSource&, const Listed&) {}
 
+  // An endless plane turns only about its normal: the world behind it must stay solid.
+  void tilt(const Wall& wall, const Motion& motion) {
+    const auto* plane = std::get_if<PlaneShape>(&wall.shape);
+    const auto* rotate = std::get_if<Rotate>(&motion.kind);
+    if (!plane || (!rotate && !std::holds_alternative<Rock>(motion.kind))) return;
+    if (rotate && rotate->axis.normalized().cross(plane->normal.normalized()).norm() < 1e-9) return;
+    complain({"walls", wall.name, "motion"}, fmt::format("The plane '{}' has no end and cannot tilt.", wall.name),
+             "rotate it about its normal, or use a mesh");
+  }
+
   void motions(const Wall& wall) {
+    for (const Motion& motion : wall.motions) tilt(wall, motion);
     for (const Motion& motion : wall.motions) {
       if (motion.start < motion.end) continue;
       complain({"walls", wall.name, "motion"}, fmt::format("A motion ends at {} s, before it starts at {} s.", motion.end, motion.start));

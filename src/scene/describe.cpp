@@ -84,8 +84,9 @@ struct First {
 
 void describeFirst(Form& form, First& first) {
   for (const sim::PropertyInfo& info : sim::propertyTable()) form.misplaced(info.key, "Name the other material as well: [pairs.a.b].");
-  form.others({"second", "Properties of two materials that meet, whichever is named first. They override those of all pairs."},
-              namedEntries(first.seconds, [](Form& f, Second& second) { describeProperties(f, second.properties, sim::Scope::pair); }));
+  Entries seconds = namedEntries(first.seconds, [](Form& f, Second& second) { describeProperties(f, second.properties, sim::Scope::pair); });
+  seconds.open = true;
+  form.others({"second", "Properties of two materials that meet, whichever is named first. They override those of all pairs."}, seconds);
 }
 
 void describeSpecialPairs(Form& form, std::vector<Pair>& special) {
@@ -95,7 +96,9 @@ void describeSpecialPairs(Form& form, std::vector<Pair>& special) {
     if (first == firsts.end()) first = firsts.insert(first, {pair.first, {}});
     first->seconds.push_back({pair.second, pair.properties});
   }
-  form.others({"first", "A material."}, namedEntries(firsts, describeFirst));
+  Entries entries = namedEntries(firsts, describeFirst);
+  entries.open = true;
+  form.others({"first", "A material."}, entries);
   special.clear();
   for (const First& first : firsts) {
     for (const Second& second : first.seconds) special.push_back({first.name, second.name, second.properties});

@@ -14,7 +14,7 @@ bool saysAuto(const io::Value* value) { return value && value->text() && *value-
 
 std::string lowered(std::string_view sentence) {
   std::string text(sentence.substr(0, sentence.find_last_not_of('.') + 1));
-  if (text.size() > 1 && text[1] >= 'a' && text[1] <= 'z' && text[0] >= 'A' && text[0] <= 'Z') text[0] = static_cast<char>(text[0] - 'A' + 'a');
+  if (text.size() > 1 && ((text[1] >= 'a' && text[1] <= 'z') || text[1] == ' ') && text[0] >= 'A' && text[0] <= 'Z') text[0] = static_cast<char>(text[0] - 'A' + 'a');
   return text;
 }
 
@@ -311,7 +311,7 @@ void FillingForm::others(const Field& field, Entries entries) {
   for (const auto& [name, value] : *table_->table()) {
     if (table_->knows(name) || value.skipped()) continue;
     if (!value.table() && !nothingElse) continue;  // rather a slip in one of the other keys than a name
-    if (value.madeByOverride() && nothingElse) {
+    if (value.madeByOverride() && !entries.open) {
       const auto nearest = nearestName(name, written);
       complaints_.push_back({value.keyPosition(), fmt::format("There is no '{}' in the scene.", value.path()),
                              nearest ? fmt::format("did you mean '{}'?", *nearest) : std::string()});

@@ -60,6 +60,7 @@ inline constexpr std::size_t noneOfThem = std::numeric_limits<std::size_t>::max(
 /// Tables of which there may be any number: how many, what they are called, how to make one more, and what is in each.
 struct Entries {
   std::size_t count = 0;
+  bool open = false;  ///< the names are known from elsewhere: an override may add an entry
   std::function<std::string(std::size_t)> name;         ///< of an entry that is there
   std::function<std::size_t(const std::string&)> add;   ///< makes an entry, returns its index
   std::function<void(Form&, std::size_t)> describe;
@@ -112,8 +113,9 @@ class Form {
   virtual void misplaced(std::string_view key, std::string_view sentence) = 0;
   /// True when every alternative is wanted and not just the one that applies.
   virtual bool wantsAll() const { return false; }
-  /// Says which alternative the following fields belong to (`source = "stream"`); empty: to all.
-  virtual void alternative(std::string_view) {}
+  /// The fields until the matching end belong to one alternative (`source = "stream"`); only told to a form that wants all.
+  virtual void beginAlternative(std::string_view) {}
+  virtual void endAlternative() {}
   /// The kind is not known: nothing more can be said about this table.
   virtual void giveUp() {}
 };

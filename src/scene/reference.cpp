@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <utility>
 
 #include "scene/describe.h"
 #include "scene/showing_form.h"
@@ -95,7 +94,8 @@ class ExplainingForm : public Form {
   bool isPlain(std::string_view, bool present) override { return present; }
   void misplaced(std::string_view, std::string_view) override {}
   bool wantsAll() const override { return true; }
-  void alternative(std::string_view title) override { pending_ = title.empty() ? "in any case" : title; }
+  void beginAlternative(std::string_view title) override { alternatives_.emplace_back(title); }
+  void endAlternative() override { alternatives_.pop_back(); }
 
  private:
   static std::string code(const std::string& text) { return "`" + text + "`"; }
@@ -115,10 +115,12 @@ class ExplainingForm : public Form {
     return range == "finite" || bounds.upper >= 1e9 ? nameOf(dimension) : fmt::format("{}, {}", nameOf(dimension), range);
   }
 
-  // Which alternative the rows that follow belong to; said only when a row follows.
+  // Which alternative the row that follows belongs to, where it differs from the row before.
   void sayAlternative() {
-    if (!pending_.empty() && pending_ != said_) section_.rows += fmt::format("| **{}** | | | |\n", pending_);
-    if (!pending_.empty()) said_ = std::exchange(pending_, {});
+    std::string now;
+    for (const std::string& title : alternatives_) now += (now.empty() ? "" : ", ") + title;
+    if (now != said_) section_.rows += fmt::format("| **{}** | | | |\n", now.empty() ? "in any case" : now);
+    said_ = now;
   }
 
   void row(const Field& field, std::string kind, const std::string& otherwise) {
@@ -140,7 +142,8 @@ class ExplainingForm : public Form {
 
   std::vector<Section>& sections_;
   std::vector<Section> inner_;
-  std::string path_, pending_, said_;
+  std::string path_, said_;
+  std::vector<std::string> alternatives_;
   Section section_;
 };
 

@@ -130,8 +130,8 @@ std::optional<Factor> lookUp(std::string_view name) {
 }
 
 std::string nearestUnit(std::string_view name) {
-  static const std::vector<std::string> common{"mm", "cm", "m", "um", "km", "g", "kg", "mg", "t", "s", "ms", "us", "min", "h", "N", "mN", "kN",
-                                               "MN", "Pa", "kPa", "MPa", "GPa", "J", "mJ", "W", "Hz", "kHz", "rad", "deg", "rpm", "rev", "L",
+  static const std::vector<std::string> common{"mm", "cm", "m", "um", "km", "g", "kg", "mg", "t", "s", "ms", "us", "min", "h", "N", "kN",
+                                               "Pa", "kPa", "MPa", "GPa", "J", "mJ", "W", "Hz", "kHz", "rad", "deg", "rpm", "rev", "L",
                                                "bar", "fps", "grains", "frames"};
   const auto nearest = nearestName(name, common);
   return nearest ? fmt::format("did you mean '{}'?", *nearest) : std::string();
@@ -228,7 +228,7 @@ class UnitParser {
   int power() {
     const bool caret = accept("^");
     const bool negative = accept("-") || accept("⁻");
-    if (!negative) accept("+");
+    if (caret && !negative) accept("+");
     int digit = superscript(rest_);
     if (digit >= 0) {
       rest_.remove_prefix(superscripts[digit].size());

@@ -1,0 +1,45 @@
+#include "scene/writer.h"
+
+#include <gtest/gtest.h>
+
+#include "scene/reader.h"
+#include "scenes.h"
+
+namespace tsubu::scene {
+namespace {
+
+TEST(Writer, WhatIsWrittenReadsAsTheSameScene) {
+  for (const std::string& text : {shortScene, richScene}) {
+    const Scene scene = readText(text, "folder/scene.toml");
+    const std::string written = write(scene);
+    const Scene again = readText(written, "folder/scene.toml");
+    EXPECT_TRUE(scene == again) << written;
+    EXPECT_EQ(written, write(again));
+  }
+}
+
+// A writer that left something out would pass above if equality left it out as well.
+TEST(Writer, AnyValueThatDiffersMakesAnotherSceneAndAnotherText) {
+  const Scene scene = readText(richScene, "scene.toml");
+  const char* changes[] = {"title=other", "simulation.end=3", "simulation.gravity=[0,0,-1]", "simulation.seed=3", "simulation.skin=auto",
+                           "simulation.domain.min=[-9,-9,-9]", "contact.tension=false", "contact.rolling=constant", "materials.glass.density=1",
+                           "materials.glass.colour=#000000", "pairs.friction=0.3", "pairs.glass.\"stainless steel\".friction=0.2",
+                           "grains.packed.fill=0.1", "grains.packed.radius.max=1.4 mm", "grains.packed.spin=[0,0,1]", "grains.weighed.mass=40 g",
+                           "grains.weighed.radius.deviation=0.3 mm", "grains.crystal.lattice=hcp", "grains.crystal.jitter=0", "grains.rain.count=9",
+                           "grains.rain.rate=0.1 kg/s", "grains.rain.rate=0.2", "grains.rain.radius.mass_fractions=[0.5,0.5]",
+                           "grains.drops.cylinder.radius=0.01", "grains.listed.positions=[[0.5,0,0]]", "walls.floor.opacity=0.5",
+                           "walls.floor.look=opaque", "walls.side.plane.size=2", "walls.side.motion.phase=0", "walls.roof.motion.1.speed=3",
+                           "walls.roof.motion.0.end=inf", "sinks.below.box.max=[1,1,1]", "counters.gate.radius=inf", "output.fps=24",
+                           "output.ledger_interval=auto", "picture.width=320", "picture.quality=draft", "picture.background.top=#111111",
+                           "camera.frames.1.eye=[5,5,5]", "colours.map=vik", "colours.uniform=#111111", "colours.range=auto", "light.sun=1", "overlay.time_decimals=1"};
+  for (const char* change : changes) {
+    SCOPED_TRACE(change);
+    const Scene other = readText(richScene, "scene.toml", {change});
+    EXPECT_FALSE(scene == other);
+    EXPECT_NE(write(scene), write(other));
+    EXPECT_TRUE(readText(write(other), "scene.toml") == other);
+  }
+}
+
+}  // namespace
+}  // namespace tsubu::scene
