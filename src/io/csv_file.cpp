@@ -47,9 +47,10 @@ CsvTable parseCsv(std::string_view text, const std::string& name) {
     if (table.columns.empty()) {
       table.columns = std::move(fields);
     } else if (fields.size() != table.columns.size()) {
-      throw Error(ErrorKind::scene, {{{name, number, 1},
-                                      fmt::format("This row has {} fields; the header names {} columns.", fields.size(), table.columns.size()),
-                                      {}}});
+      throw Error(ErrorKind::scene,
+                  {{{name, number, 1},
+                    fmt::format("This row has {} fields; the header names {} columns.", fields.size(), table.columns.size()),
+                    {}}});
     } else {
       table.rows.push_back({number, std::move(fields)});
     }
@@ -57,8 +58,6 @@ CsvTable parseCsv(std::string_view text, const std::string& name) {
   return table;
 }
 
-CsvTable readCsv(const std::string& path) {
-  return parseCsv(readTextFile(path, "file"), path);
-}
+CsvTable readCsv(const std::string& path) { return parseCsv(readTextFile(path, "file"), path); }
 
 }  // namespace tsubu::io

@@ -18,7 +18,8 @@ struct CsvTable {
   std::vector<Row> rows;
 };
 
-/// Reads a file. Throws Error(files) when it cannot be read, Error(scene) with file and line when a row has not as many fields as the header.
+/// Reads a file. Throws Error(files) when it cannot be read, Error(scene) with file and line when a row has not as many fields as the
+/// header.
 CsvTable readCsv(const std::string& path);
 /// The same from a text; `name` stands for the file in messages.
 CsvTable parseCsv(std::string_view text, const std::string& name);

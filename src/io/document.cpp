@@ -106,8 +106,10 @@ std::optional<std::vector<std::string>> splitPath(std::string_view path) {
   bool quoted = false;
   for (const char c : path) {
     if (quote) {
-      if (c == quote) quote = 0;
-      else segments.back() += c;
+      if (c == quote)
+        quote = 0;
+      else
+        segments.back() += c;
     } else if ((c == '"' || c == '\'') && segments.back().empty()) {
       quote = c;
       quoted = true;
@@ -150,8 +152,10 @@ void complain(const Value& table, const std::pair<std::string, Value>& member, c
               std::vector<Diagnostic>& complaints) {
   const auto nearest = nearestName(member.first, known);
   std::string hint;
-  if (nearest) hint = fmt::format("did you mean '{}'?", *nearest);
-  else if (!known.empty()) hint = fmt::format("known here: {}", listNames(known));
+  if (nearest)
+    hint = fmt::format("did you mean '{}'?", *nearest);
+  else if (!known.empty())
+    hint = fmt::format("known here: {}", listNames(known));
   const std::string where = table.path().empty() ? "" : fmt::format(" in '{}'", table.path());
   complaints.push_back({member.second.keyPosition(), fmt::format("Unknown key '{}'{}.", member.first, where), std::move(hint)});
 }
@@ -198,9 +202,7 @@ bool Value::has(std::string_view key) const {
   return table() && std::any_of(table()->begin(), table()->end(), [&](const auto& member) { return member.first == key; });
 }
 
-Document Document::fromFile(const std::string& path) {
-  return fromText(readTextFile(path, "scene file"), path);
-}
+Document Document::fromFile(const std::string& path) { return fromText(readTextFile(path, "scene file"), path); }
 
 Document Document::fromText(std::string_view text, const std::string& name) {
   Document document;
@@ -225,7 +227,8 @@ void Document::set(std::string_view assignment) {
   for (const std::string& segment : *segments) {
     if (auto* array = std::get_if<Value::Array>(&place->content_)) {
       const auto index = elementIndex(*array, segment);
-      if (!index) refuse(fmt::format("'{}' has {} elements and none is called '{}'.", place->path_, array->size(), segment), "count from 0");
+      if (!index)
+        refuse(fmt::format("'{}' has {} elements and none is called '{}'.", place->path_, array->size(), segment), "count from 0");
       place = &(*array)[*index];
     } else if (auto* table = std::get_if<Value::Table>(&place->content_)) {
       auto member = std::find_if(table->begin(), table->end(), [&](const auto& m) { return m.first == segment; });
@@ -259,8 +262,10 @@ std::vector<Diagnostic> Document::unreadKeys() const {
       for (const Value& element : *value.array()) open.push_back(&element);
     } else if (value.table()) {
       for (const auto& member : *value.table()) {
-        if (member.second.read_) open.push_back(&member.second);
-        else complain(value, member, value.known_, complaints);
+        if (member.second.read_)
+          open.push_back(&member.second);
+        else
+          complain(value, member, value.known_, complaints);
       }
     }
   }

@@ -19,7 +19,8 @@ Variant makeAlternative(std::size_t index) {
   return [index]<std::size_t... I>(std::index_sequence<I...>) {
     const std::array<Variant, sizeof...(I)> all{Variant(std::in_place_index<I>)...};
     return all[index];
-  }(std::make_index_sequence<std::variant_size_v<Variant>>{});
+  }
+  (std::make_index_sequence<std::variant_size_v<Variant>>{});
 }
 
 /// Describes the alternative with this index, or all of them for a form that wants all, each under `title(i)`.

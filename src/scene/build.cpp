@@ -125,7 +125,8 @@ sim::Model buildModel(const Scene& scene) {
   model.integrator = s.integrator;
   model.gravity = s.gravity;
   for (const Sink& sink : scene.sinks) model.sinks.push_back({sink.name, sink.region});
-  for (const Counter& counter : scene.counters) model.counters.push_back({counter.name, counter.point, counter.normal.normalized(), counter.radius});
+  for (const Counter& counter : scene.counters)
+    model.counters.push_back({counter.name, counter.point, counter.normal.normalized(), counter.radius});
   if (s.domain) model.domain = Box(s.domain->min, s.domain->max);
   model.skin = s.skin.value_or(0);
   model.ledger = s.ledger;
@@ -162,7 +163,8 @@ double expectedSpeed(const sim::Model& model, const Box& bounds, double end) {
   for (const sim::Grain& grain : model.grains) start = std::max(start, grain.velocity.norm());
   for (const sim::Stream& stream : model.streams) start = std::max(start, stream.velocity.norm() + std::sqrt(3.0) * stream.velocitySpread);
   for (const sim::Wall& w : model.walls) {
-    if (!w.motion.still() && w.surface) wall = std::max(wall, w.motion.maxSpeed(w.surface->asPlane() ? bounds : w.surface->bounds(), 0, end));
+    if (!w.motion.still() && w.surface)
+      wall = std::max(wall, w.motion.maxSpeed(w.surface->asPlane() ? bounds : w.surface->bounds(), 0, end));
   }
   const double drop = model.gravity.cwiseAbs().dot(bounds.sizes());  // |g| × height along gravity
   return std::max(std::sqrt(start * start + 2 * drop), wall);
@@ -191,7 +193,8 @@ FramePlan planFrames(const Scene& scene, const sim::Model& model, double speed, 
     step = *s.timeStep;
     plan.limitedBy = "the scene (time_step)";
     if (step > choice.limit) {
-      warnings.push_back(fmt::format("The time step of {:.4g} s is above the stability limit of {:.4g} s ({}).", step, choice.limit, choice.limitedBy));
+      warnings.push_back(
+          fmt::format("The time step of {:.4g} s is above the stability limit of {:.4g} s ({}).", step, choice.limit, choice.limitedBy));
     }
   } else {
     step = s.safety * choice.limit;

@@ -13,10 +13,10 @@ namespace tsubu::scene {
 
 /// Steps of the simulation and what is written after them. Frame k and row k show the state after k × stepsPer… steps, from k = 0 on.
 struct FramePlan {
-  double timeStep = 0;      ///< s: both intervals are whole numbers of it
-  std::string limitedBy;    ///< what set it
-  double limit = 0;         ///< s: the stability limit
-  double interval = 0;      ///< s of simulated time from frame to frame
+  double timeStep = 0;    ///< s: both intervals are whole numbers of it
+  std::string limitedBy;  ///< what set it
+  double limit = 0;       ///< s: the stability limit
+  double interval = 0;    ///< s of simulated time from frame to frame
   double ledgerInterval = 0;
   std::uint64_t stepsPerFrame = 0;
   std::uint64_t stepsPerLedgerRow = 0;

@@ -51,10 +51,10 @@ void checkTable(const Scene& scene, const Properties& properties, const Path& pa
     const sim::Need& need = reading.need;
     read[static_cast<std::size_t>(need.property)] = read[static_cast<std::size_t>(need.alternative)] = true;
     if (need.property != need.alternative && properties[need.property] && properties[need.alternative]) {
-      findings.errors.push_back({at(need.alternative),
-                                 fmt::format("'{}' and '{}' say the same in two ways; only one can be given.", keyOf(need.property),
-                                             keyOf(need.alternative)),
-                                 {}});
+      findings.errors.push_back(
+          {at(need.alternative),
+           fmt::format("'{}' and '{}' say the same in two ways; only one can be given.", keyOf(need.property), keyOf(need.alternative)),
+           {}});
     }
   }
   for (const sim::PropertyInfo& info : sim::propertyTable()) {
@@ -69,7 +69,8 @@ void checkContact(const Scene& scene, const PositionOf& positionOf, Findings& fi
   try {
     sim::lawIndex(scene.contact);
   } catch (const Error& error) {
-    for (const Diagnostic& what : error.diagnostics()) findings.errors.push_back({positionOf({"contact", "rolling"}), what.message, what.hint});
+    for (const Diagnostic& what : error.diagnostics())
+      findings.errors.push_back({positionOf({"contact", "rolling"}), what.message, what.hint});
   }
   for (const Reading& reading : readings(scene.contact)) checkNeed(scene, reading, positionOf, findings);
   checkTable(scene, scene.pairs.all, {"pairs"}, positionOf, findings);
@@ -77,7 +78,8 @@ void checkContact(const Scene& scene, const PositionOf& positionOf, Findings& fi
   for (const std::size_t i : grainMaterials(scene)) {
     const Material& material = scene.materials[i];
     if (material.properties[sim::Property::density]) continue;
-    findings.errors.push_back({positionOf({"materials", material.name}), fmt::format("Grains are made of '{}', which has no density.", material.name),
+    findings.errors.push_back({positionOf({"materials", material.name}),
+                               fmt::format("Grains are made of '{}', which has no density.", material.name),
                                "for instance density = \"2500 kg/m^3\""});
   }
 }

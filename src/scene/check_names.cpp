@@ -48,7 +48,8 @@ class NameCheck {
     std::error_code ignored;
     const std::string place = resolved(scene_, file);
     if (std::filesystem::is_regular_file(place, ignored)) return;
-    findings_.missingFiles.push_back({positionOf_(path), fmt::format("There is no {} '{}'.", what, place), "paths start at the folder of the scene"});
+    findings_.missingFiles.push_back(
+        {positionOf_(path), fmt::format("There is no {} '{}'.", what, place), "paths start at the folder of the scene"});
   }
 
   void complain(const Path& path, std::string sentence, std::string hint = {}) {
@@ -72,7 +73,8 @@ void checkNames(const Scene& scene, const PositionOf& positionOf, Findings& find
     if (material.name.empty()) check.complain({"materials", ""}, "A material has no name.");
     for (const sim::PropertyInfo& info : sim::propertyTable()) {
       if (material.name == info.key) {
-        check.complain({"materials", material.name}, fmt::format("A material cannot be called '{}'.", material.name), "it is the key of a property");
+        check.complain({"materials", material.name}, fmt::format("A material cannot be called '{}'.", material.name),
+                       "it is the key of a property");
       }
     }
   }

@@ -41,7 +41,8 @@ class ValueCheck {
   bool box(const Path& path, const sim::BoxRegion& b) {
     for (int k = 0; k < 3; ++k) {
       if (b.min[k] < b.max[k]) continue;
-      complain(path, fmt::format("The box is empty: its {} runs from {} m to {} m.", "xyz"[k], b.min[k], b.max[k]), "min must lie below max");
+      complain(path, fmt::format("The box is empty: its {} runs from {} m to {} m.", "xyz"[k], b.min[k], b.max[k]),
+               "min must lie below max");
       return false;
     }
     return true;
@@ -74,7 +75,8 @@ class ValueCheck {
 
   bool table(const Path& path, const sim::RadiusTable& d) {
     if (d.radii.size() != d.massFractions.size()) {
-      complain(path, fmt::format("There are {} radii and {} mass fractions.", d.radii.size(), d.massFractions.size()), "one share for each radius");
+      complain(path, fmt::format("There are {} radii and {} mass fractions.", d.radii.size(), d.massFractions.size()),
+               "one share for each radius");
       return false;
     }
     double sum = 0;
@@ -99,7 +101,8 @@ class ValueCheck {
       return false;
     }
     if (r.inradius() >= sizes.largest() * (1 - 1e-12)) return true;
-    complain(path, fmt::format("The region is too narrow: the largest grains have a radius of {} m, and only {} m fits.", sizes.largest(), r.inradius()));
+    complain(path, fmt::format("The region is too narrow: the largest grains have a radius of {} m, and only {} m fits.", sizes.largest(),
+                               r.inradius()));
     return false;
   }
 
@@ -116,12 +119,14 @@ class ValueCheck {
   void source(const Path& path, const GrainSource& source, const Lattice& lattice) {
     if (!place(path, lattice.region, source.radii)) return;
     if (!lattice.spacing || *lattice.spacing >= 2 * source.radii.largest() * (1 - 1e-12)) return;
-    complain(inside(path, "spacing"), fmt::format("Neighbours {} m apart overlap: the largest diameter is {} m.", *lattice.spacing, 2 * source.radii.largest()));
+    complain(inside(path, "spacing"),
+             fmt::format("Neighbours {} m apart overlap: the largest diameter is {} m.", *lattice.spacing, 2 * source.radii.largest()));
   }
 
   void source(const Path& path, const GrainSource& source, const Inlet& inlet) {
     place(path, inlet.region, source.radii);
-    if (inlet.start >= inlet.end) complain(inside(path, "end"), fmt::format("The stream ends at {} s, before it starts at {} s.", inlet.end, inlet.start));
+    if (inlet.start >= inlet.end)
+      complain(inside(path, "end"), fmt::format("The stream ends at {} s, before it starts at {} s.", inlet.end, inlet.start));
   }
 
   void source(const Path&, const GrainSource&, const FromFile&) {}
@@ -178,13 +183,16 @@ class ValueCheck {
 
   void view(const Path& path, const Vec3& eye, const Vec3& target, const Vec3& up) {
     const Vec3 along = target - eye;
-    if (along.norm() == 0) complain(path, "The camera stands where it looks.", "eye and target must differ");
-    else if (along.cross(up).norm() <= 1e-9 * along.norm() * up.norm()) complain(path, "The camera looks along its 'up'.", "give another 'up'");
+    if (along.norm() == 0)
+      complain(path, "The camera stands where it looks.", "eye and target must differ");
+    else if (along.cross(up).norm() <= 1e-9 * along.norm() * up.norm())
+      complain(path, "The camera looks along its 'up'.", "give another 'up'");
   }
 
   void looks() {
     for (const Wall& wall : scene_.walls) {
-      const bool translucent = wall.look == Look::translucent || (wall.look == Look::automatic && std::holds_alternative<PlaneShape>(wall.shape));
+      const bool translucent =
+          wall.look == Look::translucent || (wall.look == Look::automatic && std::holds_alternative<PlaneShape>(wall.shape));
       if (wall.opacity && !translucent) {
         warn({"walls", wall.name, "opacity"}, fmt::format("The wall '{}' is not translucent: its opacity has no effect.", wall.name),
              "write look = \"translucent\"");

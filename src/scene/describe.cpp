@@ -62,8 +62,9 @@ void describeProperties(Form& form, Properties& properties, sim::Scope scope) {
   }
   for (const sim::PropertyInfo& info : sim::propertyTable()) {
     if (info.scope == scope) continue;
-    form.misplaced(info.key, scope == sim::Scope::material ? "It belongs to a pair of materials: write it in [pairs], or in [pairs.a.b] for two."
-                                                           : "It belongs to one material: write it in [materials.name].");
+    form.misplaced(info.key, scope == sim::Scope::material
+                                 ? "It belongs to a pair of materials: write it in [pairs], or in [pairs.a.b] for two."
+                                 : "It belongs to one material: write it in [materials.name].");
   }
 }
 
@@ -84,7 +85,8 @@ struct First {
 
 void describeFirst(Form& form, First& first) {
   for (const sim::PropertyInfo& info : sim::propertyTable()) form.misplaced(info.key, "Name the other material as well: [pairs.a.b].");
-  Entries seconds = namedEntries(first.seconds, [](Form& f, Second& second) { describeProperties(f, second.properties, sim::Scope::pair); });
+  Entries seconds =
+      namedEntries(first.seconds, [](Form& f, Second& second) { describeProperties(f, second.properties, sim::Scope::pair); });
   seconds.open = true;
   form.others({"second", "Properties of two materials that meet, whichever is named first. They override those of all pairs."}, seconds);
 }
@@ -107,10 +109,13 @@ void describeSpecialPairs(Form& form, std::vector<Pair>& special) {
 
 void describeOutput(Form& form, Output& output) {
   form.quantity({"fps", "Frames per second of the film."}, output.fps, frequency, positive);
-  form.optionalQuantity({"slow_motion", "Seconds of film per simulated second; 1 when nothing is said."}, output.slowMotion, number, positive);
-  form.optionalQuantity({"frame_interval", "Simulated time from frame to frame: instead of slow_motion."}, output.frameInterval, time, positive);
-  form.quantityOrAuto({"ledger_interval", "Simulated time between rows of the ledger, a whole number of frame intervals or a whole part of one. "
-                                          "\"auto\": with every frame."},
+  form.optionalQuantity({"slow_motion", "Seconds of film per simulated second; 1 when nothing is said."}, output.slowMotion, number,
+                        positive);
+  form.optionalQuantity({"frame_interval", "Simulated time from frame to frame: instead of slow_motion."}, output.frameInterval, time,
+                        positive);
+  form.quantityOrAuto({"ledger_interval",
+                       "Simulated time between rows of the ledger, a whole number of frame intervals or a whole part of one. "
+                       "\"auto\": with every frame."},
                       output.ledgerInterval, time, positive);
 }
 
@@ -143,8 +148,9 @@ void describe(Form& form, Scene& scene) {
   form.text({"title", "What the film shows, in a few words."}, scene.title);
   form.table(required("simulation", "What is computed, and for how long."), [&](Form& f) { describeSimulation(f, scene.simulation); });
   form.table({"contact", "The laws by which grains touch."}, [&](Form& f) { describeContact(f, scene.contact); });
-  form.table(required("materials", "What grains and walls are made of."),
-             [&](Form& f) { f.others({"name", "A material."}, namedEntries(scene.materials, describeMaterial)); });
+  form.table(required("materials", "What grains and walls are made of."), [&](Form& f) {
+    f.others({"name", "A material."}, namedEntries(scene.materials, describeMaterial));
+  });
   form.table(required("pairs", "What happens between materials that touch: here for all pairs, grains with walls included."), [&](Form& f) {
     describeProperties(f, scene.pairs.all, sim::Scope::pair);
     describeSpecialPairs(f, scene.pairs.special);

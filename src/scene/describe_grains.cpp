@@ -15,9 +15,11 @@ void describeSizes(Form& form, sim::SizeDistribution& radii) {
                                     {"radii", "A table of radii with their shares of the mass."}};
   using Spread = std::variant<sim::UniformRadius, sim::NormalRadius, sim::RadiusTable>;
   Spread spread;
-  std::visit([&spread]<class D>(const D& d) {
-    if constexpr (!std::is_same_v<D, sim::ConstantRadius>) spread = d;
-  }, radii.kind);
+  std::visit(
+      [&spread]<class D>(const D& d) {
+        if constexpr (!std::is_same_v<D, sim::ConstantRadius>) spread = d;
+      },
+      radii.kind);
   struct Each {
     Form& form;
     void operator()(sim::UniformRadius& d) const {
@@ -32,7 +34,8 @@ void describeSizes(Form& form, sim::SizeDistribution& radii) {
     }
     void operator()(sim::RadiusTable& d) const {
       form.quantities(required("radii", "The radii."), d.radii, length, positive);
-      form.quantities(required("mass_fractions", "The share of each in the whole mass; together 1."), d.massFractions, number, {0, 1, false, false});
+      form.quantities(required("mass_fractions", "The share of each in the whole mass; together 1."), d.massFractions, number,
+                      {0, 1, false, false});
     }
   };
   // The order of the alternatives is not the order of precedence: a normal distribution has a min as well.
@@ -85,8 +88,8 @@ struct DescribeSource {
     static constexpr Dimension rates[] = {frequency, massRate};
     describeRegion(form, inlet.region);
     std::size_t kind = static_cast<std::size_t>(inlet.rateKind);
-    form.quantityOfKinds(required("rate", "Grains per second (\"500 grains/s\"), or mass per second (\"0.2 kg/s\")."), inlet.rate, kind, rates,
-                         positive);
+    form.quantityOfKinds(required("rate", "Grains per second (\"500 grains/s\"), or mass per second (\"0.2 kg/s\")."), inlet.rate, kind,
+                         rates, positive);
     inlet.rateKind = static_cast<RateKind>(kind);
     form.quantity({"start", "When the stream begins."}, inlet.start, time, notNegative);
     form.quantity({"end", "When it ends."}, inlet.end, time, notNegativeOrForever);
@@ -94,8 +97,9 @@ struct DescribeSource {
   }
 
   void operator()(FromFile& from) const {
-    form.text(required("file", "CSV file with the columns x,y,z,radius[,vx,vy,vz,wx,wy,wz,material] in SI units; the path starts at the scene."),
-              from.file);
+    form.text(
+        required("file", "CSV file with the columns x,y,z,radius[,vx,vy,vz,wx,wy,wz,material] in SI units; the path starts at the scene."),
+        from.file);
     form.vector({"offset", "Added to every position."}, from.offset, length);
   }
 
@@ -104,14 +108,19 @@ struct DescribeSource {
 
 // Keys that a reader of other people's scenes may expect here.
 void describeMisplaced(Form& form) {
-  static constexpr std::pair<std::string_view, std::string_view> keys[] = {
-      {"rate", "It belongs to source = \"stream\"."},         {"start", "It belongs to source = \"stream\"."},
-      {"end", "It belongs to source = \"stream\"."},          {"fill", "It belongs to source = \"packing\"."},
-      {"mass", "It belongs to source = \"packing\"."},        {"lattice", "It belongs to source = \"lattice\"."},
-      {"spacing", "It belongs to source = \"lattice\"."},     {"jitter", "It belongs to source = \"lattice\"."},
-      {"file", "It belongs to source = \"file\"."},           {"offset", "It belongs to source = \"file\"."},
-      {"positions", "It belongs to source = \"list\"."},      {"count", "It belongs to source = \"packing\" or \"stream\"."},
-      {"radius", "The radii of source = \"file\" are in the file."}};
+  static constexpr std::pair<std::string_view, std::string_view> keys[] = {{"rate", "It belongs to source = \"stream\"."},
+                                                                           {"start", "It belongs to source = \"stream\"."},
+                                                                           {"end", "It belongs to source = \"stream\"."},
+                                                                           {"fill", "It belongs to source = \"packing\"."},
+                                                                           {"mass", "It belongs to source = \"packing\"."},
+                                                                           {"lattice", "It belongs to source = \"lattice\"."},
+                                                                           {"spacing", "It belongs to source = \"lattice\"."},
+                                                                           {"jitter", "It belongs to source = \"lattice\"."},
+                                                                           {"file", "It belongs to source = \"file\"."},
+                                                                           {"offset", "It belongs to source = \"file\"."},
+                                                                           {"positions", "It belongs to source = \"list\"."},
+                                                                           {"count", "It belongs to source = \"packing\" or \"stream\"."},
+                                                                           {"radius", "The radii of source = \"file\" are in the file."}};
   if (form.wantsAll()) return;
   for (const auto& [key, sentence] : keys) form.misplaced(key, sentence);
 }
@@ -126,7 +135,8 @@ void describeSource(Form& form, GrainSource& source) {
   if (!std::holds_alternative<FromFile>(source.from) || form.wantsAll()) describeRadius(form, source.radii);
   form.text({"material", "Name of the material; may be left out when there is only one."}, source.material);
   form.vector({"velocity", "Initial velocity."}, source.velocity, velocity);
-  form.quantity({"velocity_spread", "Largest random deviation of each component of the velocity."}, source.velocitySpread, velocity, notNegative);
+  form.quantity({"velocity_spread", "Largest random deviation of each component of the velocity."}, source.velocitySpread, velocity,
+                notNegative);
   form.vector({"spin", "Initial angular velocity."}, source.spin, angularVelocity);
   describeMisplaced(form);
 }
@@ -134,7 +144,9 @@ void describeSource(Form& form, GrainSource& source) {
 }  // namespace
 
 void describeGrains(Form& form, Scene& scene) {
-  form.table({"grains", "Where grains come from."}, [&](Form& f) { f.others({"name", "A source of grains."}, namedEntries(scene.grains, describeSource)); });
+  form.table({"grains", "Where grains come from."}, [&](Form& f) {
+    f.others({"name", "A source of grains."}, namedEntries(scene.grains, describeSource));
+  });
 }
 
 }  // namespace tsubu::scene

@@ -44,11 +44,13 @@ struct DescribeCamera {
     form.quantity(required("distance", "From the target."), c.distance, length, positive);
     form.quantity({"azimuth", "Where the eye is at time 0; 0 looks from +x, 90 deg from +y."}, c.azimuth, angle);
     form.quantity({"elevation", "Of the eye above the horizon."}, c.elevation, angle, between(-pi / 2, pi / 2));
-    form.quantity(required("speed", "Angular velocity in simulated time, counter-clockwise seen from above."), c.angularVelocity, angularVelocity);
+    form.quantity(required("speed", "Angular velocity in simulated time, counter-clockwise seen from above."), c.angularVelocity,
+                  angularVelocity);
     lens(c);
   }
   void operator()(render::KeyFrameCamera& c) const {
-    form.list(required("frames", "Where the camera is at some times; in between it moves smoothly."), plainEntries(c.frames, [](Form& f, render::KeyFrame& k) {
+    form.list(required("frames", "Where the camera is at some times; in between it moves smoothly."),
+              plainEntries(c.frames, [](Form& f, render::KeyFrame& k) {
                 f.quantity(required("time", "Simulated time."), k.time, dimension::time);
                 f.vector(required("eye", "Where the camera is."), k.eye, length);
                 f.vector(required("target", "What it looks at."), k.target, length);
@@ -64,12 +66,17 @@ struct DescribeCamera {
 
 Dimension dimensionOfColour(render::ColourBy by) {
   switch (by) {
-    case render::ColourBy::speed: return velocity;
-    case render::ColourBy::radius: return length;
-    case render::ColourBy::force: return force;
-    case render::ColourBy::angularVelocity: return angularVelocity;
+    case render::ColourBy::speed:
+      return velocity;
+    case render::ColourBy::radius:
+      return length;
+    case render::ColourBy::force:
+      return force;
+    case render::ColourBy::angularVelocity:
+      return angularVelocity;
     case render::ColourBy::uniform:
-    case render::ColourBy::material: break;
+    case render::ColourBy::material:
+      break;
   }
   return number;
 }
@@ -77,7 +84,8 @@ Dimension dimensionOfColour(render::ColourBy by) {
 void describeColours(Form& form, render::Grains& grains) {
   words(form, {"by", "What the colour of a grain shows."}, grains.by, render::colourByWords);
   words(form, {"map", "The colours of a quantity from low to high."}, grains.map, render::colourMapWords);
-  form.rangeOrAuto({"range", "[low, high] of the quantity, with units. \"auto\": of each frame."}, grains.range, dimensionOfColour(grains.by));
+  form.rangeOrAuto({"range", "[low, high] of the quantity, with units. \"auto\": of each frame."}, grains.range,
+                   dimensionOfColour(grains.by));
   form.colour({"uniform", "The colour of all grains when by = \"uniform\"."}, grains.uniform);
   words(form, {"pattern", "What is painted on the grains, so that one sees them turn."}, grains.pattern, render::patternWords);
 }
@@ -89,7 +97,8 @@ void describeLight(Form& form, render::Light& light) {
   form.boolean({"shadows", "Does the sun throw shadows?"}, light.shadows);
   form.quantity({"shadow_strength", "1: no sun at all in the shadow."}, light.shadowStrength, number, share);
   form.boolean({"ambient_occlusion", "Do neighbours hide the sky?"}, light.ambientOcclusion);
-  form.quantity({"occlusion_strength", "1 is the share of the sky that is hidden; up to 2 for more depth."}, light.occlusionStrength, number, between(0, 2));
+  form.quantity({"occlusion_strength", "1 is the share of the sky that is hidden; up to 2 for more depth."}, light.occlusionStrength,
+                number, between(0, 2));
 }
 
 void describeOverlay(Form& form, Overlay& overlay) {
@@ -109,8 +118,9 @@ void describePicture(Form& form, Scene& scene) {
                                      {"orbit", "Goes around a point."},
                                      {"key_frames", "Moves through given places."}};
   form.table({"picture", "Size and background of the frames."}, [&](Form& f) { describeFrame(f, scene.picture, scene.background); });
-  form.table({"camera", "From where the scene is seen."},
-             [&](Form& f) { byWord(f, {"view", "How the camera is placed."}, scene.camera, views, DescribeCamera{f}); });
+  form.table({"camera", "From where the scene is seen."}, [&](Form& f) {
+    byWord(f, {"view", "How the camera is placed."}, scene.camera, views, DescribeCamera{f});
+  });
   form.table({"colours", "The colours of the grains."}, [&](Form& f) { describeColours(f, scene.colours); });
   form.table({"light", "A sun and a sky."}, [&](Form& f) { describeLight(f, scene.light); });
   form.table({"overlay", "What is written on the frames."}, [&](Form& f) { describeOverlay(f, scene.overlay); });

@@ -14,7 +14,8 @@ struct DescribeShape {
     form.table({"plane", "An endless plane, solid behind."}, [&](Form& f) {
       f.vector({"point", "A point of the plane."}, plane.point, length);
       f.vector({"normal", "Towards the grains; any length."}, plane.normal, number, VectorRule::notZero);
-      f.quantityOrAuto({"size", "Edge of the square that is drawn around the point. \"auto\": as large as the scene."}, plane.size, length, positive);
+      f.quantityOrAuto({"size", "Edge of the square that is drawn around the point. \"auto\": as large as the scene."}, plane.size, length,
+                       positive);
     });
   }
 
@@ -96,10 +97,15 @@ void describeCounter(Form& form, Counter& counter) {
 }  // namespace
 
 void describeWalls(Form& form, Scene& scene) {
-  form.table({"walls", "What grains cannot pass."}, [&](Form& f) { f.others({"name", "A wall."}, namedEntries(scene.walls, describeWall)); });
-  form.table({"sinks", "Regions that take grains out."}, [&](Form& f) { f.others({"name", "A sink."}, namedEntries(scene.sinks, describeSink)); });
-  form.table({"counters", "Planes that count the grains that cross them."},
-             [&](Form& f) { f.others({"name", "A counter."}, namedEntries(scene.counters, describeCounter)); });
+  form.table({"walls", "What grains cannot pass."}, [&](Form& f) {
+    f.others({"name", "A wall."}, namedEntries(scene.walls, describeWall));
+  });
+  form.table({"sinks", "Regions that take grains out."}, [&](Form& f) {
+    f.others({"name", "A sink."}, namedEntries(scene.sinks, describeSink));
+  });
+  form.table({"counters", "Planes that count the grains that cross them."}, [&](Form& f) {
+    f.others({"name", "A counter."}, namedEntries(scene.counters, describeCounter));
+  });
 }
 
 }  // namespace tsubu::scene

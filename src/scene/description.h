@@ -118,8 +118,8 @@ struct Inlet {
 
 /// From a CSV file: x,y,z,radius[,vx,vy,vz,wx,wy,wz,material]; SI.
 struct FromFile {
-  std::string file;             ///< as written: relative to the scene
-  Vec3 offset = Vec3::Zero();   ///< m, added to every position
+  std::string file;            ///< as written: relative to the scene
+  Vec3 offset = Vec3::Zero();  ///< m, added to every position
   bool operator==(const FromFile&) const = default;
 };
 
@@ -132,11 +132,11 @@ struct Listed {
 struct GrainSource {
   std::string name;
   std::variant<Packing, Lattice, Inlet, FromFile, Listed> from;
-  std::string material;            ///< empty: the only one (or, from a file, the file says)
-  sim::SizeDistribution radii;     ///< not of a file
-  Vec3 velocity = Vec3::Zero();    ///< m/s; added to what a file says
-  double velocitySpread = 0;       ///< m/s: largest random deviation of each component
-  Vec3 spin = Vec3::Zero();        ///< rad/s; added to what a file says
+  std::string material;          ///< empty: the only one (or, from a file, the file says)
+  sim::SizeDistribution radii;   ///< not of a file
+  Vec3 velocity = Vec3::Zero();  ///< m/s; added to what a file says
+  double velocitySpread = 0;     ///< m/s: largest random deviation of each component
+  Vec3 spin = Vec3::Zero();      ///< rad/s; added to what a file says
 
   bool operator==(const GrainSource&) const = default;
 };

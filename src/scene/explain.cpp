@@ -14,7 +14,7 @@ namespace {
 // Rough, and meant to be: what one core of a present machine does on a settled bed, and what a frame costs it at 1280 × 720.
 constexpr double grainStepsPerSecond = 8e6;
 constexpr double secondsPerFrame = 0.15;
-constexpr double listedPairsPerGrain = 4;   // of a settled bed of equal grains, with the skin
+constexpr double listedPairsPerGrain = 4;  // of a settled bed of equal grains, with the skin
 constexpr double contactsPerGrain = 2.2;
 
 std::string list(const std::vector<std::string>& items) {
@@ -45,7 +45,9 @@ double expectedFromStreams(const sim::Model& model, double end) {
 std::string lawLines(const Scene& scene) {
   std::string text;
   for (const sim::LawFamily& family : sim::lawFamilies()) {
-    const std::string& chosen = family.key == "normal" ? scene.contact.normal : family.key == "tangential" ? scene.contact.tangential : scene.contact.rolling;
+    const std::string& chosen = family.key == "normal"       ? scene.contact.normal
+                                : family.key == "tangential" ? scene.contact.tangential
+                                                             : scene.contact.rolling;
     for (const sim::LawInfo& law : family.laws) {
       if (law.name == chosen) text += fmt::format("  {:<13}{}: {}\n", fmt::format("{}", family.key), law.name, law.sentence);
     }
@@ -79,8 +81,8 @@ std::string explain(const Scene& scene, const Built& built) {
                       plan.bytesPerContact, plan.bytesPerListedPair, memory / 1e6);
   text += fmt::format("time step      {:.6g} s, set by {} (stability limit {:.4g} s)\n", frames.timeStep, frames.limitedBy, frames.limit);
   text += fmt::format("steps          {} for {:g} s\n", frames.steps, static_cast<double>(frames.steps) * frames.timeStep);
-  text += fmt::format("frames         {} of {} x {} pixels, one every {:g} s ({} steps), slow motion {:g}\n", frames.frames, scene.picture.width,
-                      scene.picture.height, frames.interval, frames.stepsPerFrame, slowMotion(scene.output));
+  text += fmt::format("frames         {} of {} x {} pixels, one every {:g} s ({} steps), slow motion {:g}\n", frames.frames,
+                      scene.picture.width, scene.picture.height, frames.interval, frames.stepsPerFrame, slowMotion(scene.output));
   text += fmt::format("cost           roughly {} for {:.3g} million grain-steps on one core, and {} for the frames\n", duration(computing),
                       grainSteps / 1e6, duration(drawing));
   for (const std::string& warning : built.warnings) text += fmt::format("warning        {}\n", warning);

@@ -14,7 +14,8 @@ bool saysAuto(const io::Value* value) { return value && value->text() && *value-
 
 std::string lowered(std::string_view sentence) {
   std::string text(sentence.substr(0, sentence.find_last_not_of('.') + 1));
-  if (text.size() > 1 && ((text[1] >= 'a' && text[1] <= 'z') || text[1] == ' ') && text[0] >= 'A' && text[0] <= 'Z') text[0] = static_cast<char>(text[0] - 'A' + 'a');
+  if (text.size() > 1 && ((text[1] >= 'a' && text[1] <= 'z') || text[1] == ' ') && text[0] >= 'A' && text[0] <= 'Z')
+    text[0] = static_cast<char>(text[0] - 'A' + 'a');
   return text;
 }
 
@@ -64,8 +65,9 @@ std::optional<Quantity> FillingForm::toQuantity(const io::Value& value, std::spa
                                 exampleOf(dimensions.front())));
   } catch (const Error& error) {
     const Diagnostic& what = error.diagnostics().front();
-    complain(value, fmt::format("{} Expected for '{}': {}, such as {}.", what.message, value.path(), nameOf(dimensions.front()),
-                                exampleOf(dimensions.front())),
+    complain(value,
+             fmt::format("{} Expected for '{}': {}, such as {}.", what.message, value.path(), nameOf(dimensions.front()),
+                         exampleOf(dimensions.front())),
              what.hint);
   }
   return std::nullopt;
@@ -87,8 +89,10 @@ void FillingForm::quantity(const Field& field, double& value, Dimension dimensio
 
 void FillingForm::quantityOrAuto(const Field& field, std::optional<double>& value, Dimension dimension, const Bounds& bounds) {
   const io::Value* written = find(field, exampleOf(dimension));
-  if (saysAuto(written)) value.reset();
-  else if (written) value = toNumber(*written, dimension, bounds);
+  if (saysAuto(written))
+    value.reset();
+  else if (written)
+    value = toNumber(*written, dimension, bounds);
 }
 
 void FillingForm::optionalQuantity(const Field& field, std::optional<double>& value, Dimension dimension, const Bounds& bounds) {
@@ -114,7 +118,8 @@ void FillingForm::quantities(const Field& field, std::vector<double>& values, Di
   if (!written) return;
   values.clear();
   if (!written->array() || written->array()->empty()) {
-    complain(*written, fmt::format("'{}' is {}; an array was expected, each of it {}.", written->path(), written->description(), nameOf(dimension)));
+    complain(*written,
+             fmt::format("'{}' is {}; an array was expected, each of it {}.", written->path(), written->description(), nameOf(dimension)));
     return;
   }
   for (const io::Value& element : *written->array()) {
@@ -178,8 +183,11 @@ void FillingForm::integer(const Field& field, std::uint64_t& value, std::uint64_
   } else if (*number >= 0) {
     written = static_cast<std::uint64_t>(*number);
   }
-  if (written && *written >= lower && *written <= upper) value = *written;
-  else complain(*found, fmt::format("'{}' is {}; it must be a whole number between {} and {}.", found->path(), found->description(), lower, upper));
+  if (written && *written >= lower && *written <= upper)
+    value = *written;
+  else
+    complain(*found,
+             fmt::format("'{}' is {}; it must be a whole number between {} and {}.", found->path(), found->description(), lower, upper));
 }
 
 void FillingForm::optionalInteger(const Field& field, std::optional<std::uint64_t>& value, std::uint64_t lower, std::uint64_t upper) {
@@ -196,15 +204,19 @@ void FillingForm::optionalInteger(const Field& field, std::optional<std::uint64_
 void FillingForm::boolean(const Field& field, bool& value) {
   const io::Value* written = find(field, "true");
   if (!written) return;
-  if (written->boolean()) value = *written->boolean();
-  else complain(*written, fmt::format("'{}' is {}; true or false was expected.", written->path(), written->description()));
+  if (written->boolean())
+    value = *written->boolean();
+  else
+    complain(*written, fmt::format("'{}' is {}; true or false was expected.", written->path(), written->description()));
 }
 
 void FillingForm::text(const Field& field, std::string& value) {
   const io::Value* written = find(field, "\"…\"");
   if (!written) return;
-  if (written->text()) value = *written->text();
-  else complain(*written, fmt::format("'{}' is {}; a text in quotes was expected.", written->path(), written->description()));
+  if (written->text())
+    value = *written->text();
+  else
+    complain(*written, fmt::format("'{}' is {}; a text in quotes was expected.", written->path(), written->description()));
 }
 
 void FillingForm::colour(const Field& field, render::Colour& value) {
@@ -234,8 +246,10 @@ void FillingForm::rangeOrAuto(const Field& field, std::optional<render::Range>& 
   }
   const auto low = toNumber(written->array()->front(), dimension, anything), high = toNumber(written->array()->back(), dimension, anything);
   if (!low || !high) return;
-  if (*low < *high) value = render::Range{*low, *high};
-  else complain(*written, fmt::format("'{}' begins at {} and ends at {}: the first must be the smaller.", written->path(), *low, *high));
+  if (*low < *high)
+    value = render::Range{*low, *high};
+  else
+    complain(*written, fmt::format("'{}' begins at {} and ends at {}: the first must be the smaller.", written->path(), *low, *high));
 }
 
 void FillingForm::word(const Field& field, std::size_t& index, std::span<const Choice> choices) {
@@ -291,9 +305,7 @@ void FillingForm::optionalTable(const Field& field, bool& present, const Part& p
 void FillingForm::list(const Field& field, Entries entries) {
   const io::Value* written = find(field, "");
   if (!written) return;
-  const auto one = [&](const io::Value& value) {
-    fill(field, value, [&](Form& form) { entries.describe(form, entries.add({})); });
-  };
+  const auto one = [&](const io::Value& value) { fill(field, value, [&](Form& form) { entries.describe(form, entries.add({})); }); };
   if (!written->array()) {
     one(*written);
   } else {
@@ -337,7 +349,8 @@ std::size_t FillingForm::whichKey(std::span<const Choice> keys, std::size_t pres
     } else {
       const io::Value* second = table_->find(keys[i].word);
       second->skip();
-      complaints_.push_back({second->keyPosition(), fmt::format("'{}' has both '{}' and '{}'; only one can be.", path_, keys[found].word, keys[i].word), {}});
+      complaints_.push_back(
+          {second->keyPosition(), fmt::format("'{}' has both '{}' and '{}'; only one can be.", path_, keys[found].word, keys[i].word), {}});
     }
   }
   if (found == noneOfThem) {

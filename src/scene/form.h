@@ -60,9 +60,9 @@ inline constexpr std::size_t noneOfThem = std::numeric_limits<std::size_t>::max(
 /// Tables of which there may be any number: how many, what they are called, how to make one more, and what is in each.
 struct Entries {
   std::size_t count = 0;
-  bool open = false;  ///< the names are known from elsewhere: an override may add an entry
-  std::function<std::string(std::size_t)> name;         ///< of an entry that is there
-  std::function<std::size_t(const std::string&)> add;   ///< makes an entry, returns its index
+  bool open = false;                                   ///< the names are known from elsewhere: an override may add an entry
+  std::function<std::string(std::size_t)> name;        ///< of an entry that is there
+  std::function<std::size_t(const std::string&)> add;  ///< makes an entry, returns its index
   std::function<void(Form&, std::size_t)> describe;
 };
 

@@ -89,19 +89,22 @@ class Placer {
 
 /// Rows of points, layers of rows: all three lattices with neighbours at distance 1.
 struct LatticeGeometry {
-  double row, layer;          // distance of rows and of layers
-  double rowShift;            // every second row is shifted along x by this
-  Vec3 layerShift;            // each layer is shifted by this, times its number modulo `period`
+  double row, layer;  // distance of rows and of layers
+  double rowShift;    // every second row is shifted along x by this
+  Vec3 layerShift;    // each layer is shifted by this, times its number modulo `period`
   int period;
 };
 
 LatticeGeometry geometryOf(LatticeKind kind) {
   const double triangle = std::sqrt(3.0) / 2, stacked = std::sqrt(2.0 / 3.0);
   switch (kind) {
-    case LatticeKind::sc: return {1, 1, 0, Vec3::Zero(), 1};
+    case LatticeKind::sc:
+      return {1, 1, 0, Vec3::Zero(), 1};
     // Square layers, each over the hollows of the one below.
-    case LatticeKind::fcc: return {1, std::sqrt(0.5), 0, Vec3(0.5, 0.5, 0), 2};
-    case LatticeKind::hcp: break;
+    case LatticeKind::fcc:
+      return {1, std::sqrt(0.5), 0, Vec3(0.5, 0.5, 0), 2};
+    case LatticeKind::hcp:
+      break;
   }
   return {triangle, stacked, 0.5, Vec3(0.5, triangle / 3, 0), 2};
 }
@@ -113,7 +116,9 @@ void Placer::operator()(const Lattice& lattice) {
   const Box bounds = lattice.region.bounds();
   const Vec3 first = bounds.min() + Vec3::Constant(largest);
   const double slack = 1e-9 * largest;  // a row that fits exactly must not fall to rounding
-  const auto steps = [&](int k, double distance) { return std::floor((bounds.sizes()[k] - 2 * largest + slack) / (distance * spacing)) + 1; };
+  const auto steps = [&](int k, double distance) {
+    return std::floor((bounds.sizes()[k] - 2 * largest + slack) / (distance * spacing)) + 1;
+  };
   const double rows = steps(1, g.row), layers = steps(2, g.layer), columns = steps(0, 1);
   if (rows * layers * columns > static_cast<double>(mostLatticePoints)) {
     throw Error(ErrorKind::scene, fmt::format("The lattice of 'grains.{}' has {:.3g} points.", source_.name, rows * layers * columns),
@@ -144,7 +149,8 @@ class RowReader {
       while (which < known.size() && known[which] != table.columns[c]) ++which;
       if (which == known.size()) {
         const auto nearest = nearestName(table.columns[c], known);
-        refuse(1, fmt::format("Unknown column '{}'.", table.columns[c]), nearest ? fmt::format("did you mean '{}'?", *nearest) : listNames(known));
+        refuse(1, fmt::format("Unknown column '{}'.", table.columns[c]),
+               nearest ? fmt::format("did you mean '{}'?", *nearest) : listNames(known));
       }
       if (columns_[which] != absent) refuse(1, fmt::format("The column '{}' is there twice.", table.columns[c]));
       columns_[which] = c;
@@ -181,7 +187,8 @@ class RowReader {
     double value = 0;
     const auto [end, failure] = std::from_chars(begin, text.data() + text.size(), value);
     if (failure == std::errc() && end == text.data() + text.size() && std::isfinite(value)) return value;
-    refuse(row.line, fmt::format("'{}' in column '{}' is not a number.", text, table_.columns[columns_[which]]), "numbers are SI, without units");
+    refuse(row.line, fmt::format("'{}' in column '{}' is not a number.", text, table_.columns[columns_[which]]),
+           "numbers are SI, without units");
   }
 
   std::uint16_t materialOf(const io::CsvTable::Row& row, std::optional<std::uint16_t> otherwise) const {
@@ -193,7 +200,8 @@ class RowReader {
     for (const Material& material : scene_.materials) known.push_back(material.name);
     if (name.empty()) refuse(row.line, "The material is missing.", "name it in the column 'material', or in the scene");
     const auto nearest = nearestName(name, known);
-    refuse(row.line, fmt::format("There is no material '{}'.", name), nearest ? fmt::format("did you mean '{}'?", *nearest) : listNames(known));
+    refuse(row.line, fmt::format("There is no material '{}'.", name),
+           nearest ? fmt::format("did you mean '{}'?", *nearest) : listNames(known));
   }
 
   const Scene& scene_;
@@ -241,10 +249,11 @@ void refuseOverlaps(const Scene& scene, const std::vector<sim::Grain>& grains, c
   };
   const Vec3& p = centres[overlap->second];
   const std::string first = nameOf(overlap->first), second = nameOf(overlap->second);
-  const std::string who = first == second ? fmt::format("Two grains of '{}'", first) : fmt::format("A grain of '{}' and one of '{}'", first, second);
+  const std::string who =
+      first == second ? fmt::format("Two grains of '{}'", first) : fmt::format("A grain of '{}' and one of '{}'", first, second);
   throw Error(ErrorKind::scene,
-              fmt::format("{} overlap by {:.3g} of the radius at ({:.6g}, {:.6g}, {:.6g}) m, at most {} is allowed.", who, overlap->depth, p.x(), p.y(),
-                          p.z(), scene.simulation.overlapLimit),
+              fmt::format("{} overlap by {:.3g} of the radius at ({:.6g}, {:.6g}, {:.6g}) m, at most {} is allowed.", who, overlap->depth,
+                          p.x(), p.y(), p.z(), scene.simulation.overlapLimit),
               "move the regions apart");
 }
 

@@ -19,6 +19,7 @@ using Overrides = std::vector<std::string>;
 Scene read(const std::string& path, const Overrides& overrides = {}, std::vector<Diagnostic>* warnings = nullptr);
 
 /// The same from a text; `name` stands for the file in messages and, by its folder, for paths.
-Scene readText(std::string_view text, const std::string& name, const Overrides& overrides = {}, std::vector<Diagnostic>* warnings = nullptr);
+Scene readText(std::string_view text, const std::string& name, const Overrides& overrides = {},
+               std::vector<Diagnostic>* warnings = nullptr);
 
 }  // namespace tsubu::scene

@@ -57,7 +57,9 @@ class ExplainingForm : public Form {
   void vector(const Field& field, Vec3& value, Dimension dimension, VectorRule) override {
     row(field, "three numbers, each " + nameOf(dimension), code(valueText(value)) + unitText(dimension));
   }
-  void vectors(const Field& field, std::vector<Vec3>&, Dimension dimension) override { row(field, "array of three numbers, each " + nameOf(dimension), ""); }
+  void vectors(const Field& field, std::vector<Vec3>&, Dimension dimension) override {
+    row(field, "array of three numbers, each " + nameOf(dimension), "");
+  }
   void integer(const Field& field, std::uint64_t& value, std::uint64_t lower, std::uint64_t upper) override {
     row(field, whole(lower, upper), code(std::to_string(value)));
   }
@@ -68,7 +70,9 @@ class ExplainingForm : public Form {
   void text(const Field& field, std::string& value) override { row(field, "text", value.empty() ? "" : code(valueText(value))); }
   void colour(const Field& field, render::Colour& value) override { row(field, "colour", code(valueText(value))); }
   void optionalColour(const Field& field, std::optional<render::Colour>&) override { row(field, "colour", ""); }
-  void rangeOrAuto(const Field& field, std::optional<render::Range>&, Dimension) override { row(field, "two numbers, or `\"auto\"`", "`\"auto\"`"); }
+  void rangeOrAuto(const Field& field, std::optional<render::Range>&, Dimension) override {
+    row(field, "two numbers, or `\"auto\"`", "`\"auto\"`");
+  }
   void word(const Field& field, std::size_t& index, std::span<const Choice> choices) override {
     std::string words;
     for (const Choice& choice : choices) {
@@ -171,7 +175,8 @@ std::string writeReference() {
   form.close();
   std::string text(preface);
   for (const Section& section : sections) {
-    text += fmt::format("\n## {}\n\n{}\n\n| key | value | default | meaning |\n|---|---|---|---|\n{}", section.title, section.sentence, section.rows);
+    text += fmt::format("\n## {}\n\n{}\n\n| key | value | default | meaning |\n|---|---|---|---|\n{}", section.title, section.sentence,
+                        section.rows);
   }
   return text;
 }

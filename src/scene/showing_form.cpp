@@ -32,7 +32,9 @@ std::string valueText(double value) {
   return fmt::format("{}", value);  // the shortest text that reads back to the same bits
 }
 
-std::string valueText(const Vec3& value) { return fmt::format("[{}, {}, {}]", valueText(value.x()), valueText(value.y()), valueText(value.z())); }
+std::string valueText(const Vec3& value) {
+  return fmt::format("[{}, {}, {}]", valueText(value.x()), valueText(value.y()), valueText(value.z()));
+}
 
 std::string valueText(const std::string& text) {
   std::string quoted = "\"";
@@ -65,7 +67,8 @@ void ShowingForm::optionalQuantity(const Field& field, std::optional<double>& va
   if (value) line(field, valueText(*value));
 }
 
-void ShowingForm::quantityOfKinds(const Field& field, double& value, std::size_t& which, std::span<const Dimension> dimensions, const Bounds&) {
+void ShowingForm::quantityOfKinds(const Field& field, double& value, std::size_t& which, std::span<const Dimension> dimensions,
+                                  const Bounds&) {
   line(field, which == 0 ? valueText(value) : valueText(fmt::format("{} {}", value, unitOf(dimensions[which]))));
 }
 

@@ -64,7 +64,7 @@ constexpr Unit units[] = {
 };
 
 constexpr Prefix prefixes[] = {
-    {"p", {1, 1e12}}, {"n", {1, 1e9}}, {"u", {1, 1e6}}, {"\u00b5", {1, 1e6}}, {"\u03bc", {1, 1e6}}, {"m", {1, 1e3}}, {"c", {1, 1e2}},
+    {"p", {1, 1e12}}, {"n", {1, 1e9}}, {"u", {1, 1e6}}, {"\u00b5", {1, 1e6}}, {"\u03bc", {1, 1e6}}, {"m", {1, 1e3}},  {"c", {1, 1e2}},
     {"d", {1, 1e1}},  {"h", {1e2, 1}}, {"k", {1e3, 1}}, {"M", {1e6, 1}},      {"G", {1e9, 1}},      {"T", {1e12, 1}},
 };
 
@@ -130,9 +130,9 @@ std::optional<Factor> lookUp(std::string_view name) {
 }
 
 std::string nearestUnit(std::string_view name) {
-  static const std::vector<std::string> common{"mm", "cm", "m", "um", "km", "g", "kg", "mg", "t", "s", "ms", "us", "min", "h", "N", "kN",
-                                               "Pa", "kPa", "MPa", "GPa", "J", "mJ", "W", "Hz", "kHz", "rad", "deg", "rpm", "rev", "L",
-                                               "bar", "fps", "grains", "frames"};
+  static const std::vector<std::string> common{"mm",  "cm",  "m",   "um",  "km",  "g",   "kg",  "mg",  "t",      "s",     "ms", "us",
+                                               "min", "h",   "N",   "kN",  "Pa",  "kPa", "MPa", "GPa", "J",      "mJ",    "W",  "Hz",
+                                               "kHz", "rad", "deg", "rpm", "rev", "L",   "bar", "fps", "grains", "frames"};
   const auto nearest = nearestName(name, common);
   return nearest ? fmt::format("did you mean '{}'?", *nearest) : std::string();
 }

@@ -17,8 +17,8 @@ struct Dimension {
 
 namespace dimension {
 inline constexpr Dimension number{{0, 0, 0, 0}}, length{{1, 0, 0, 0}}, mass{{0, 1, 0, 0}}, time{{0, 0, 1, 0}}, angle{{0, 0, 0, 1}},
-    velocity{{1, 0, -1, 0}}, acceleration{{1, 0, -2, 0}}, angularVelocity{{0, 0, -1, 1}}, frequency{{0, 0, -1, 0}},
-    massRate{{0, 1, -1, 0}}, density{{-3, 1, 0, 0}}, stiffness{{0, 1, -2, 0}}, force{{1, 1, -2, 0}}, pressure{{-1, 1, -2, 0}};
+    velocity{{1, 0, -1, 0}}, acceleration{{1, 0, -2, 0}}, angularVelocity{{0, 0, -1, 1}}, frequency{{0, 0, -1, 0}}, massRate{{0, 1, -1, 0}},
+    density{{-3, 1, 0, 0}}, stiffness{{0, 1, -2, 0}}, force{{1, 1, -2, 0}}, pressure{{-1, 1, -2, 0}};
 }  // namespace dimension
 
 struct Quantity {

@@ -93,14 +93,25 @@ render::WallLook lookOf(const Scene& scene, const Wall& wall) {
   render::WallLook result;
   switch (look) {
     case Look::automatic:
-    case Look::opaque: result.style = render::WallStyle::opaque; break;
-    case Look::translucent: result.style = render::WallStyle::translucent; break;
-    case Look::wire: result.style = render::WallStyle::wire; break;
-    case Look::ground: result.ground = true; break;
-    case Look::hidden: result.style = render::WallStyle::hidden; break;
+    case Look::opaque:
+      result.style = render::WallStyle::opaque;
+      break;
+    case Look::translucent:
+      result.style = render::WallStyle::translucent;
+      break;
+    case Look::wire:
+      result.style = render::WallStyle::wire;
+      break;
+    case Look::ground:
+      result.ground = true;
+      break;
+    case Look::hidden:
+      result.style = render::WallStyle::hidden;
+      break;
   }
   const std::size_t material = materialIndex(scene, wall.material);
-  if (wall.colour) result.colour = *wall.colour;
+  if (wall.colour)
+    result.colour = *wall.colour;
   else if (material != noMaterial && scene.materials[material].colour && !grainMaterials(scene).contains(material)) {
     result.colour = *scene.materials[material].colour;
   }

@@ -40,8 +40,9 @@ TEST(Document, KindsOfValues) {
   EXPECT_NE(root.find("a")->array(), nullptr);
   EXPECT_NE(root.find("o")->table(), nullptr);
   EXPECT_EQ(root.find("none"), nullptr);
-  const std::pair<const char*, const char*> descriptions[] = {{"b", "true"}, {"i", "the number 3"}, {"r", "the number 2.5"}, {"t", "the text 'x'"},
-                                                              {"d", "the date or time 1979-05-27"}, {"a", "an empty array"}, {"o", "a table"}};
+  const std::pair<const char*, const char*> descriptions[] = {
+      {"b", "true"},           {"i", "the number 3"}, {"r", "the number 2.5"}, {"t", "the text 'x'"}, {"d", "the date or time 1979-05-27"},
+      {"a", "an empty array"}, {"o", "a table"}};
   for (const auto& [key, text] : descriptions) EXPECT_EQ(root.find(key)->description(), text);
 }
 

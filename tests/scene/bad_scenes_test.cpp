@@ -62,7 +62,8 @@ TEST_P(BadScene, IsRefusedWithItsMessage) {
 
 INSTANTIATE_TEST_SUITE_P(Files, BadScene, testing::ValuesIn(badFiles()), [](const testing::TestParamInfo<fs::path>& file) {
   std::string name = file.param.stem().string();
-  std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
   return name;
 });
 

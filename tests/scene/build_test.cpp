@@ -15,7 +15,9 @@
 namespace tsubu::scene {
 namespace {
 
-Built built(const std::string& more = {}, const Overrides& overrides = {}) { return build(readText(shortScene + more, "scene.toml", overrides)); }
+Built built(const std::string& more = {}, const Overrides& overrides = {}) {
+  return build(readText(shortScene + more, "scene.toml", overrides));
+}
 
 TEST(Build, TheShortSceneRuns) {
   Built b = built("[walls.floor]\nplane = {}\n");
@@ -57,7 +59,8 @@ TEST(Build, SpecialPairsOverrideThoseOfAll) {
 
 // A damping rate for one pair displaces the restitution that all have: only one of the two can be meant.
 TEST(Build, ASpecialAlternativeDisplacesTheGeneralOne) {
-  const Built b = built("[materials.steel]\ndensity = 7850\n[pairs.steel.glass]\nnormal_damping_rate = 100\n", {"grains.bed.material=glass"});
+  const Built b =
+      built("[materials.steel]\ndensity = 7850\n[pairs.steel.glass]\nnormal_damping_rate = 100\n", {"grains.bed.material=glass"});
   EXPECT_FALSE(b.model.pairs.at(0, 1).has(sim::Property::restitution));
   EXPECT_EQ(b.model.pairs.at(0, 1)[sim::Property::normalDampingRate], 100);
   EXPECT_TRUE(b.model.pairs.at(0, 0).has(sim::Property::restitution));
@@ -122,7 +125,8 @@ class BuildWithFiles : public testing::Test {
 // A triangle with corners (0,0,0), (1,0,0), (0,1,0) in millimetres, turned by 90° about x and moved by 1 m along z.
 TEST_F(BuildWithFiles, MeshesAreScaledTurnedAndMoved) {
   put("t.obj", "v 0 0 0\nv 1000 0 0\nv 0 1000 0\nf 1 2 3\n");
-  const Built b = builtHere("[walls.t]\nmesh = \"t.obj\"\nscale = \"1 mm\"\nrotation = { axis = [3, 0, 0], angle = \"90 deg\" }\nposition = [0, 0, 1]\n");
+  const Built b = builtHere(
+      "[walls.t]\nmesh = \"t.obj\"\nscale = \"1 mm\"\nrotation = { axis = [3, 0, 0], angle = \"90 deg\" }\nposition = [0, 0, 1]\n");
   ASSERT_EQ(b.walls[0].mesh.vertices.size(), 3u);
   EXPECT_TRUE(b.walls[0].mesh.vertices[1].isApprox(Vec3(1, 0, 1)));
   EXPECT_TRUE(b.walls[0].mesh.vertices[2].isApprox(Vec3(0, 0, 2)));
@@ -133,7 +137,8 @@ TEST_F(BuildWithFiles, MeshesAreScaledTurnedAndMoved) {
 // 5° to and fro at 2 Hz: after an eighth of a second it has turned by 5°.
 TEST_F(BuildWithFiles, MeshesRock) {
   put("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  const std::string more = "[walls.t]\nmesh = \"t.obj\"\nmotion = { kind = \"rock\", axis = [1, 0, 0], amplitude = \"5 deg\", frequency = \"2 Hz\" }\n";
+  const std::string more =
+      "[walls.t]\nmesh = \"t.obj\"\nmotion = { kind = \"rock\", axis = [1, 0, 0], amplitude = \"5 deg\", frequency = \"2 Hz\" }\n";
   const Pose pose = builtHere(more).model.walls[0].motion.at(0.125);
   EXPECT_NEAR(Eigen::AngleAxisd(pose.rotation).angle(), 5 * M_PI / 180, 1e-12);
   const Scene scene = readText(shortScene + more, (folder_ / "scene.toml").string());
@@ -178,17 +183,21 @@ TEST(Build, AFailedPackingNamesItsSource) {
     built({}, {"grains.bed.radius=1 cm", "grains.bed.count=170"});  // a solid fraction of 0.71
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()).substr(0, 92), "In 'grains.bed': 170 grains, a solid fraction of 0.712, do not fit into the region at random");
+    EXPECT_EQ(std::string(error.what()).substr(0, 92),
+              "In 'grains.bed': 170 grains, a solid fraction of 0.712, do not fit into the region at random");
   }
 }
 
 TEST(Build, SourcesThatOverlapAreNamed) {
   try {
-    built("[grains.one]\nsource = \"list\"\npositions = [[1, 0, 0]]\nradius = 0.1\n[grains.two]\nsource = \"list\"\npositions = [[1.1, 0, 0]]\nradius = 0.1\n");
+    built(
+        "[grains.one]\nsource = \"list\"\npositions = [[1, 0, 0]]\nradius = 0.1\n[grains.two]\nsource = \"list\"\npositions = [[1.1, 0, "
+        "0]]\nradius = 0.1\n");
     FAIL();
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(),
-                 "A grain of 'one' and one of 'two' overlap by 1 of the radius at (1.1, 0, 0) m, at most 0.1 is allowed. (move the regions apart)");
+    EXPECT_STREQ(
+        error.what(),
+        "A grain of 'one' and one of 'two' overlap by 1 of the radius at (1.1, 0, 0) m, at most 0.1 is allowed. (move the regions apart)");
   }
 }
 

@@ -62,7 +62,9 @@ TEST(PlaceGrains, JitterNeverMakesOverlaps) {
 
 // 50 g of 2500 kg/m³ is 2e-5 m³, to within half a grain of radius 2 mm.
 TEST(PlaceGrains, PackingsByMassHaveTheMass) {
-  const auto grains = placed("source = \"packing\"\nmass = \"50 g\"\nbox = { min = [0, 0, 0], max = [0.1, 0.1, 0.1] }\nradius = { min = \"1 mm\", max = \"2 mm\" }\n");
+  const auto grains = placed(
+      "source = \"packing\"\nmass = \"50 g\"\nbox = { min = [0, 0, 0], max = [0.1, 0.1, 0.1] }\nradius = { min = \"1 mm\", max = \"2 mm\" "
+      "}\n");
   double volume = 0;
   for (const sim::Grain& g : grains) volume += 4.0 / 3.0 * std::numbers::pi * std::pow(g.radius, 3);
   EXPECT_NEAR(volume, 2e-5, 0.5 * 4.0 / 3.0 * std::numbers::pi * 8e-9);
@@ -71,7 +73,8 @@ TEST(PlaceGrains, PackingsByMassHaveTheMass) {
 TEST(PlaceGrains, AnotherSourceBeforeDoesNotChangeTheGrains) {
   const std::string other = "[grains.other]\nsource = \"packing\"\ncount = 5\nbox = { min = [1, 1, 1], max = [2, 2, 2] }\nradius = 0.01\n";
   const std::size_t at = shortScene.find("[grains.bed]");
-  const Scene alone = readText(shortScene, "scene.toml"), second = readText(shortScene.substr(0, at) + other + shortScene.substr(at), "scene.toml");
+  const Scene alone = readText(shortScene, "scene.toml"),
+              second = readText(shortScene.substr(0, at) + other + shortScene.substr(at), "scene.toml");
   std::vector<sim::Grain> a, b;
   placeGrains(alone, alone.grains[0], a);
   placeGrains(second, second.grains[1], b);

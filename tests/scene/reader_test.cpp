@@ -89,8 +89,10 @@ TEST(Reader, EveryAlternativeOfTheFormat) {
 }
 
 TEST(Reader, ThingsKeepTheOrderOfTheFile) {
-  const Scene scene = readText(shortScene + "[materials.zinc]\n[materials.ash]\n[walls.zulu]\nplane={}\nmaterial=\"ash\"\n[walls.alpha]\nplane={}\nmaterial=\"zinc\"\n",
-                               "scene.toml", {"grains.bed.material=glass"});
+  const Scene scene = readText(
+      shortScene +
+          "[materials.zinc]\n[materials.ash]\n[walls.zulu]\nplane={}\nmaterial=\"ash\"\n[walls.alpha]\nplane={}\nmaterial=\"zinc\"\n",
+      "scene.toml", {"grains.bed.material=glass"});
   EXPECT_EQ(scene.materials[1].name, "zinc");
   EXPECT_EQ(scene.materials[2].name, "ash");
   EXPECT_EQ(scene.walls[0].name, "zulu");
@@ -106,30 +108,37 @@ TEST(Reader, OverridesReplaceAndAdd) {
   EXPECT_EQ(readShort({"pairs.glass.glass.friction=0.9"}).pairs.special[0].properties[sim::Property::friction], 0.9);
   EXPECT_EQ(readText(richScene, "s.toml", {"walls.roof.motion.1.speed=1"}).walls[2].motions[1].start, 0.5);
   EXPECT_EQ(std::get<Rotate>(readText(richScene, "s.toml", {"walls.roof.motion.1.speed=1"}).walls[2].motions[1].kind).speed, 1);
-  EXPECT_EQ(readText(richScene, "s.toml", {"pairs.glass.\"stainless steel\".friction=0.3"}).pairs.special[0].properties[sim::Property::friction], 0.3);
+  EXPECT_EQ(
+      readText(richScene, "s.toml", {"pairs.glass.\"stainless steel\".friction=0.3"}).pairs.special[0].properties[sim::Property::friction],
+      0.3);
 }
 
 TEST(Reader, OverridesThatFitNothingSayWhatIsNear) {
   EXPECT_EQ(complaintOf(shortScene, {"simulation.en=2"}), "--set simulation.en: Unknown key 'en' in 'simulation'. (did you mean 'end'?)");
-  EXPECT_EQ(complaintOf(shortScene, {"grains.bad.count=3"}), "--set grains.bad.count: There is no 'grains.bad' in the scene. (did you mean 'bed'?)");
+  EXPECT_EQ(complaintOf(shortScene, {"grains.bad.count=3"}),
+            "--set grains.bad.count: There is no 'grains.bad' in the scene. (did you mean 'bed'?)");
   EXPECT_EQ(complaintOf(shortScene, {"materials.glas.density=3"}),
             "--set materials.glas.density: There is no 'materials.glas' in the scene. (did you mean 'glass'?)");
-  EXPECT_EQ(complaintOf(shortScene, {"simulation.end.x=3"}), "--set simulation.end.x: 'simulation.end' is the text '1 s': it has no part 'x'.");
+  EXPECT_EQ(complaintOf(shortScene, {"simulation.end.x=3"}),
+            "--set simulation.end.x: 'simulation.end' is the text '1 s': it has no part 'x'.");
   EXPECT_EQ(complaintOf(richScene, {"walls.roof.motion.7.speed=3"}),
             "--set walls.roof.motion.7.speed: 'walls.roof.motion' has 3 elements and none is called '7'. (count from 0)");
-  EXPECT_EQ(complaintOf(shortScene, {"simulation.end"}), "--set simulation.end: 'simulation.end' is not an override. (write --set path.to.key=value)");
+  EXPECT_EQ(complaintOf(shortScene, {"simulation.end"}),
+            "--set simulation.end: 'simulation.end' is not an override. (write --set path.to.key=value)");
   EXPECT_EQ(complaintOf(shortScene, {"=3"}), "--set : '=3' is not an override. (write --set path.to.key=value)");
-  EXPECT_EQ(complaintOf(shortScene, {"simulation.end=5 kg"}), "--set simulation.end: '5 kg' is a mass; a time was expected, such as \"10 ms\".");
+  EXPECT_EQ(complaintOf(shortScene, {"simulation.end=5 kg"}),
+            "--set simulation.end: '5 kg' is a mass; a time was expected, such as \"10 ms\".");
 }
 
 TEST(Reader, AllComplaintsComeAtOnceInTheOrderOfTheFile) {
   const std::string complaint = complaintOf(shortScene + "[walls.floor]\nplane = 3\nlook = \"opaqe\"\n", {"simulation.endd=1", "title=1"});
-  EXPECT_EQ(complaint,
-            "scene.toml:16:9: 'walls.floor.plane' is the number 3; a table was expected: an endless plane, solid behind.\n"
-            "scene.toml:17:8: 'walls.floor.look' is the text 'opaqe'; expected \"auto\", \"opaque\", \"translucent\", \"wire\", \"ground\" or "
-            "\"hidden\". (did you mean 'opaque'?)\n"
-            "--set title: 'title' is the number 1; a text in quotes was expected.\n"
-            "--set simulation.endd: Unknown key 'endd' in 'simulation'. (did you mean 'end'?)");
+  EXPECT_EQ(
+      complaint,
+      "scene.toml:16:9: 'walls.floor.plane' is the number 3; a table was expected: an endless plane, solid behind.\n"
+      "scene.toml:17:8: 'walls.floor.look' is the text 'opaqe'; expected \"auto\", \"opaque\", \"translucent\", \"wire\", \"ground\" or "
+      "\"hidden\". (did you mean 'opaque'?)\n"
+      "--set title: 'title' is the number 1; a text in quotes was expected.\n"
+      "--set simulation.endd: Unknown key 'endd' in 'simulation'. (did you mean 'end'?)");
 }
 
 TEST(Reader, ValuesThatNoLawReadsAreWorthAWarning) {

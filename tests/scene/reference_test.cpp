@@ -17,8 +17,9 @@ TEST(Reference, TheCommittedPageIsUpToDate) {
 
 TEST(Reference, ExplainsKeysInAndOutsideOfAlternatives) {
   const std::string text = writeReference();
-  for (const char* part : {"| `end` | a time | required |", "**source = \"stream\"**", "| `rate` | a frequency or a mass per time | required |",
-                           "`\"velocity_verlet\"`", "## `[walls.NAME.motion]`", "| `friction` |"}) {
+  for (const char* part :
+       {"| `end` | a time | required |", "**source = \"stream\"**", "| `rate` | a frequency or a mass per time | required |",
+        "`\"velocity_verlet\"`", "## `[walls.NAME.motion]`", "| `friction` |"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   }
 }

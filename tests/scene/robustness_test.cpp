@@ -37,15 +37,35 @@ TEST(Robustness, RandomBytes) {
   for (int i = 0; i < 1500; ++i) {
     std::string text = richScene;
     const int changes = 1 + static_cast<int>(random.uniform(0, 4));
-    for (int k = 0; k < changes; ++k) text[static_cast<std::size_t>(random.uniform() * static_cast<double>(text.size()))] = static_cast<char>(random.bits() & 0xFF);
+    for (int k = 0; k < changes; ++k)
+      text[static_cast<std::size_t>(random.uniform() * static_cast<double>(text.size()))] = static_cast<char>(random.bits() & 0xFF);
     tryToRead(text);
   }
 }
 
 // Right words and values in wrong places.
 TEST(Robustness, RandomValues) {
-  const char* values[] = {"-1", "0", "1e308", "nan", "inf", "-inf", "\"\"", "\"1e400 m\"", "\"2 mm\"", "[]", "[1]", "[1,2,3]", "[[1,2,3],[]]", "{}",
-                          "{x = 1}", "true", "1979-05-27", "\"auto\"", "9223372036854775807", "-9223372036854775808", "[\"a\", {}, 1]"};
+  const char* values[] = {"-1",
+                          "0",
+                          "1e308",
+                          "nan",
+                          "inf",
+                          "-inf",
+                          "\"\"",
+                          "\"1e400 m\"",
+                          "\"2 mm\"",
+                          "[]",
+                          "[1]",
+                          "[1,2,3]",
+                          "[[1,2,3],[]]",
+                          "{}",
+                          "{x = 1}",
+                          "true",
+                          "1979-05-27",
+                          "\"auto\"",
+                          "9223372036854775807",
+                          "-9223372036854775808",
+                          "[\"a\", {}, 1]"};
   std::vector<std::pair<std::size_t, std::size_t>> places;  // of what is right of each =
   for (std::size_t at = richScene.find(" = "); at != std::string::npos; at = richScene.find(" = ", at + 1)) {
     places.emplace_back(at + 3, richScene.find('\n', at) - at - 3);

@@ -142,9 +142,9 @@ TEST(Units, NearestUnitIsOffered) {
 }
 
 TEST(Units, DimensionsHaveNamesExamplesAndUnits) {
-  for (const Dimension& d : {dimension::length, dimension::mass, dimension::time, dimension::angle, dimension::velocity, dimension::acceleration,
-                             dimension::angularVelocity, dimension::frequency, dimension::massRate, dimension::density, dimension::stiffness,
-                             dimension::force, dimension::pressure}) {
+  for (const Dimension& d : {dimension::length, dimension::mass, dimension::time, dimension::angle, dimension::velocity,
+                             dimension::acceleration, dimension::angularVelocity, dimension::frequency, dimension::massRate,
+                             dimension::density, dimension::stiffness, dimension::force, dimension::pressure}) {
     SCOPED_TRACE(nameOf(d));
     std::string example = exampleOf(d);
     EXPECT_EQ(parseQuantity(example.substr(1, example.size() - 2)).dimension, d);  // without the quotes

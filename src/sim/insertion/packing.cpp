@@ -20,10 +20,10 @@ constexpr double sphereFactor = 4.0 / 3.0 * std::numbers::pi;
 
 constexpr int triesPerSphere = 30;
 constexpr int mostSweeps = 3000;
-constexpr double densest = 0.63;       // solid fraction of random close packing, a little less
+constexpr double densest = 0.63;                              // solid fraction of random close packing, a little less
 constexpr double largestGrowth = 0.02, leastGrowth = 0.0005;  // of the radii while overlaps are pushed apart
 constexpr int patience = 100;                                 // sweeps without progress
-constexpr double listStretch = 1.12;   // pairs up to this times contact distance are listed
+constexpr double listStretch = 1.12;                          // pairs up to this times contact distance are listed
 
 double cube(double r) { return r * r * r; }
 
@@ -179,7 +179,8 @@ class Packer {
     listPairs();
     for (int number = 0, lastGain = 0; number < mostSweeps; ++number) {
       const double depth = sweep(growth);
-      for (std::size_t i = 0; i < radii_.size(); ++i) confinement_.confine(centres_[i], std::min(radii_[i] * growth, std::max(radii_[i], inradius_)));
+      for (std::size_t i = 0; i < radii_.size(); ++i)
+        confinement_.confine(centres_[i], std::min(radii_[i] * growth, std::max(radii_[i], inradius_)));
       if (depth <= 0 && !overlaps()) return true;
       if (depth < 0.97 * bestDepth) {
         bestDepth = depth;
@@ -230,8 +231,8 @@ class Packer {
       scale = std::min(scale, (centres_[pair.i] - centres_[pair.j]).norm() / (radii_[pair.i] + radii_[pair.j]));
     }
     throw Error(ErrorKind::scene,
-                fmt::format("{} grains, a solid fraction of {:.3f}, do not fit into the region at random; {:.3f} was reached.", radii_.size(),
-                            fraction_, fraction_ * cube(scale)),
+                fmt::format("{} grains, a solid fraction of {:.3f}, do not fit into the region at random; {:.3f} was reached.",
+                            radii_.size(), fraction_, fraction_ * cube(scale)),
                 "ask for fewer or smaller grains, or use a lattice");
   }
 

@@ -24,8 +24,8 @@ SphereGrid::Level SphereGrid::makeLevel(double largest) const {
   while (cellsWith(edge) > cellsAllowed) edge *= 1.26;
   level.inverseEdge = 1 / edge;
   for (std::size_t k = 0; k < 3; ++k) level.cells[k] = static_cast<int>(size[static_cast<int>(k)] / edge) + 1;
-  level.head.assign(static_cast<std::size_t>(level.cells[0]) * static_cast<std::size_t>(level.cells[1]) * static_cast<std::size_t>(level.cells[2]),
-                    none);
+  level.head.assign(
+      static_cast<std::size_t>(level.cells[0]) * static_cast<std::size_t>(level.cells[1]) * static_cast<std::size_t>(level.cells[2]), none);
   return level;
 }
 

@@ -30,9 +30,8 @@ void Stream::emit(std::uint64_t seed, std::size_t index, double density, double 
   if (!(elapsed > 0)) return;
   const std::size_t first = grains.size();
   const std::uint64_t key = mix64(streamWord + index);
-  while (progress.emitted < count &&
-         (kilogramsPerSecond > 0 ? isDue(progress.emittedMass, kilogramsPerSecond * elapsed)
-                                 : isDue(static_cast<double>(progress.emitted), grainsPerSecond * elapsed))) {
+  while (progress.emitted < count && (kilogramsPerSecond > 0 ? isDue(progress.emittedMass, kilogramsPerSecond * elapsed)
+                                                             : isDue(static_cast<double>(progress.emitted), grainsPerSecond * elapsed))) {
     Random ofGrain(seed, key, progress.emitted);
     Grain grain;
     grain.radius = radii.draw(ofGrain);

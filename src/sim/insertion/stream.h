@@ -32,16 +32,16 @@ struct StreamProgress {
 /// the amount is right whenever the region can take it, for any step. Everything about grain k is keyed by (seed, stream, k, attempt).
 struct Stream {
   std::string name;
-  Region region;                ///< where grains appear, entirely inside
-  double grainsPerSecond = 0;   ///< one of the two rates is positive
+  Region region;               ///< where grains appear, entirely inside
+  double grainsPerSecond = 0;  ///< one of the two rates is positive
   double kilogramsPerSecond = 0;
   SizeDistribution radii;
   Vec3 velocity = Vec3::Zero();         ///< m/s
   double velocitySpread = 0;            ///< m/s: largest deviation of each component, uniform
   Vec3 angularVelocity = Vec3::Zero();  ///< rad/s
   std::uint16_t material = 0;
-  double start = 0;                                              ///< s
-  double end = std::numeric_limits<double>::infinity();          ///< s: no more is promised after it
+  double start = 0;                                                 ///< s
+  double end = std::numeric_limits<double>::infinity();             ///< s: no more is promised after it
   std::uint64_t count = std::numeric_limits<std::uint64_t>::max();  ///< at most so many grains
 
   /// \brief Appends to `grains` those that come in at `time`, and notes them in `progress`.
