@@ -14,6 +14,7 @@ constexpr double capUnits = 10;   // height of a capital in units of the glyphs
 constexpr double baseLine = 3;    // y of the base line in the glyphs
 constexpr double gap = 2.7;       // between letters, in units
 constexpr double penUnits = 1.3;  // width of the pen
+constexpr double dotUnits = 0.35;  // by which dots are rounder than the pen
 
 using Point = Eigen::Vector2d;
 
@@ -91,7 +92,7 @@ void drawGlyph(Image& image, const std::vector<Segment>& segments, const Point& 
     for (int x = fromX; x < toX; ++x) {
       const Point p((x + 0.5 - origin.x()) / scale, (origin.y() - y - 0.5) / scale);
       double distance = std::numeric_limits<double>::infinity();
-      for (const Segment& s : segments) distance = std::min(distance, s.distance(p));
+      for (const Segment& s : segments) distance = std::min(distance, s.distance(p) - (s.a == s.b ? dotUnits : 0));
       const double share = std::clamp(0.5 + (radius - distance * scale) / soft, 0.0, 1.0);
       if (share > 0) blend(image, x, y, colour, share * opacity);
     }

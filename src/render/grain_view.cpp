@@ -9,6 +9,8 @@ namespace tsubu::render {
 
 namespace {
 
+constexpr double largestNumber = 1e15;  // m: squares of what is drawn must fit into single precision
+
 /// The slopes x/depth of the two planes through the eye and an axis of the picture that touch a sphere at (x, depth).
 /// From (x − s·depth)² = r²·(1 + s²).
 std::array<double, 2> tangentSlopes(double x, double depth, double r) {
@@ -30,7 +32,9 @@ std::vector<std::uint32_t> drawableGrains(const Snapshot& snapshot) {
   std::vector<std::uint32_t> drawable;
   drawable.reserve(snapshot.grains());
   for (std::uint32_t k = 0; k < snapshot.grains(); ++k) {
-    if (snapshot.position[k].allFinite() && std::isfinite(snapshot.radius[k]) && snapshot.radius[k] > 0) drawable.push_back(k);
+    const bool placed = snapshot.position[k].allFinite() && snapshot.position[k].lpNorm<Eigen::Infinity>() < largestNumber;
+    const bool sized = snapshot.radius[k] > 1 / largestNumber && snapshot.radius[k] < largestNumber;
+    if (placed && sized) drawable.push_back(k);
   }
   return drawable;
 }

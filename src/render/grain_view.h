@@ -18,7 +18,7 @@ struct SeenGrain {
   std::array<float, 4> box;          ///< clip-space rectangle that just holds the picture of the grain: low x, low y, high x, high y
 };
 
-/// The indices of grains with finite positions and finite, positive radii: only these are drawn.
+/// The indices of grains whose positions are numbers (below 10¹⁵ m) and whose radii are positive numbers: only these are drawn.
 std::vector<std::uint32_t> drawableGrains(const Snapshot& snapshot);
 
 /// Grains for a picture of width × height samples, from front to back. Left out: what lies behind `nearPlane` or outside the picture, what

@@ -50,20 +50,29 @@ void NeighbourGrid::fill(Level& level, const std::vector<std::uint32_t>& members
   for (std::size_t m = 0; m < members.size(); ++m) level.entries[next[hashes[m]]++] = unsorted[m];
 }
 
+void NeighbourGrid::compare(const Entry& entry, const Vec3& centre, double radius, std::uint32_t self,
+                            std::vector<Occluder>& found) const {
+  if (entry.grain == self) return;
+  const Vec3 offset = centres_[entry.grain] - centre;
+  const double within = radius + 2 * radii_[entry.grain];
+  if (offset.squaredNorm() < within * within) found.push_back({offset, radii_[entry.grain], entry.grain});
+}
+
 void NeighbourGrid::near(const Vec3& centre, double radius, std::uint32_t self, std::vector<Occluder>& found) const {
   for (const Level& level : levels_) {
     const double size = 2 * level.largest, reach = radius + 2 * level.largest;
+    // A grain among much smaller ones may span more cells than there are grains.
+    if (std::pow(2 * reach / size, 3) > static_cast<double>(level.entries.size())) {
+      for (const Entry& entry : level.entries) compare(entry, centre, radius, self, found);
+      continue;
+    }
     const Cell low = cellOf(centre - Vec3::Constant(reach), size), high = cellOf(centre + Vec3::Constant(reach), size);
     for (Cell cell{0, 0, low.z}; cell.z <= high.z; ++cell.z) {
       for (cell.y = low.y; cell.y <= high.y; ++cell.y) {
         for (cell.x = low.x; cell.x <= high.x; ++cell.x) {
           const std::uint32_t bucket = hashOf(cell, level.starts.size() - 1);
           for (std::uint32_t e = level.starts[bucket]; e < level.starts[bucket + 1]; ++e) {
-            const std::uint32_t k = level.entries[e].grain;
-            if (k == self || !(level.entries[e].cell == cell)) continue;
-            const Vec3 offset = centres_[k] - centre;
-            const double within = radius + 2 * radii_[k];
-            if (offset.squaredNorm() < within * within) found.push_back({offset, radii_[k], k});
+            if (level.entries[e].cell == cell) compare(level.entries[e], centre, radius, self, found);
           }
         }
       }

@@ -41,6 +41,7 @@ class NeighbourGrid {
     std::vector<std::uint32_t> starts;  ///< first entry by hash, and the end
   };
 
+  void compare(const Entry& entry, const Vec3& centre, double radius, std::uint32_t self, std::vector<Occluder>& found) const;
   static Cell cellOf(const Vec3& position, double size);
   static std::uint32_t hashOf(const Cell& cell, std::size_t buckets);
   void fill(Level& level, const std::vector<std::uint32_t>& members);

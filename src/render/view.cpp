@@ -36,28 +36,28 @@ View lookAt(const Vec3& eye, const Vec3& target, const Vec3& up, double fovY, do
   return view;
 }
 
-/// Moves back along the line of sight until the eight corners fit, then centres what was seen of them; twice is enough.
+/// The nearest eye that sees all eight corners. With corners (x, y, z) in the directions of the view, z towards the eye, an eye at
+/// (X, Y, Z) sees a corner when |x − X| ≤ t·(Z − z), t being the tangent of the half opening. So X lies between max(x + t·z) − t·Z and
+/// min(x − t·z) + t·Z, which is possible from some Z on; in between, the middle is fair to both sides. The same for y.
 View framing(const AutoCamera& camera, double aspect, const Box& bounds) {
   const Box box = bounds.isEmpty() ? Box(Vec3::Constant(-0.5), Vec3::Constant(0.5)) : bounds;
-  const Vec3 towardsEye = directionOf(camera.azimuth, camera.elevation, camera.up);
-  const double size = std::max(box.diagonal().norm(), 1e-9);
-  const double share = std::max(0.1, 1 - 2 * camera.margin);
-  Vec3 target = box.center();
-  double distance = size;
-  View view = lookAt(target + distance * towardsEye, target, camera.up, camera.fovY, aspect);
-  for (int pass = 0; pass < 12; ++pass) {
-    double lowX = 1e300, highX = -1e300, lowY = 1e300, highY = -1e300, needed = 1e-3 * size;
-    for (int k = 0; k < 8; ++k) {
-      const Vec3 corner = view.rotation * (box.corner(static_cast<Box::CornerType>(k)) - target);
-      needed = std::max(needed, corner.z() + std::max(std::abs(corner.x()) / view.tanX, std::abs(corner.y()) / view.tanY) / share);
-      const double depth = std::max(distance - corner.z(), 1e-3 * size);
-      lowX = std::min(lowX, corner.x() / depth), highX = std::max(highX, corner.x() / depth);
-      lowY = std::min(lowY, corner.y() / depth), highY = std::max(highY, corner.y() / depth);
+  const Vec3 centre = box.center(), towardsEye = directionOf(camera.azimuth, camera.elevation, camera.up);
+  const View view = lookAt(centre + towardsEye, centre, camera.up, camera.fovY, aspect);
+  const double share = 1 - 2 * camera.margin;
+  const double t[] = {share * view.tanX, share * view.tanY};
+  double most[] = {-INFINITY, -INFINITY}, least[] = {INFINITY, INFINITY}, nearest = -INFINITY;
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 corner = view.rotation * (box.corner(static_cast<Box::CornerType>(k)) - centre);
+    nearest = std::max(nearest, corner.z());
+    for (int axis = 0; axis < 2; ++axis) {
+      most[axis] = std::max(most[axis], corner[axis] + t[axis] * corner.z());
+      least[axis] = std::min(least[axis], corner[axis] - t[axis] * corner.z());
     }
-    target += view.rotation.transpose() * Vec3(0.5 * (lowX + highX), 0.5 * (lowY + highY), 0) * distance;
-    distance = needed;
   }
-  return lookAt(target + distance * towardsEye, target, camera.up, camera.fovY, aspect);
+  const double size = std::max(box.diagonal().norm(), 1e-9);
+  const double distance = std::max({(most[0] - least[0]) / (2 * t[0]), (most[1] - least[1]) / (2 * t[1]), nearest + 0.01 * size});
+  const Vec3 aside = view.rotation.transpose() * Vec3(0.5 * (most[0] + least[0]), 0.5 * (most[1] + least[1]), 0);
+  return lookAt(centre + aside + distance * towardsEye, centre + aside, camera.up, camera.fovY, aspect);
 }
 
 /// Cubic Hermite with tangents of central differences in time (Catmull–Rom for uneven spacing), at rest at both ends.

@@ -14,7 +14,7 @@ namespace {
 // Limits of the perceptual tier. A sample that falls on the other side of a silhouette changes one pixel by a quarter; a grain of three
 // pixels that moved by its radius changes some twenty by far more, and stands out in its window.
 constexpr double leastSsim = 0.985;
-constexpr double mostFlip = 0.01;
+constexpr double mostFlip = 0.015;
 constexpr double mostInWindow = 0.05;
 
 /// One number per pixel.

@@ -11,9 +11,9 @@ void main() {
   float closest = dot(ball.xyz, ray) / square;
   vec3 miss = ball.xyz - closest * ray;  // from the ray to the centre: no difference of large numbers, so silhouettes stay sharp
   float rest = ball.w * ball.w - dot(miss, miss);
-  if (rest < 0.0) discard;
+  if (!(rest >= 0.0)) discard;
   float hit = closest - sqrt(rest / square);
-  if (hit < nearPlane) discard;
+  if (!(hit >= nearPlane)) discard;
   gl_FragDepth = nearPlane / hit;
   seen = name;
 }
