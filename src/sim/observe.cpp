@@ -25,10 +25,10 @@ std::vector<std::size_t> byId(const State& state) {
 
 }  // namespace
 
+// The velocities that contacts see are those of the instant, and known also when the forces are not.
 double Simulation::Impl::energyOf(std::size_t grain) const {
-  const Velocities now = velocitiesNow(state, grain, model.gravity, model.timeStep);
-  const double m = state.mass(grain);
-  return 0.5 * m * (now.v.squaredNorm() + 0.4 * now.s.squaredNorm()) - m * model.gravity.dot(positionOf(state.rows[grain]));
+  const GrainRow& row = state.rows[grain];
+  return (0.5 * norm2(row.velocity()) + 0.2 * norm2(row.surfaceSpin()) - model.gravity.dot(positionOf(row))) / row.inverseMass;
 }
 
 Ledger Simulation::Impl::ledgerNow() {
@@ -127,51 +127,96 @@ ContactSummary Simulation::Impl::contactsNow() {
   return {deepest.touching, deepest.overlap};
 }
 
-// Normal forces depend on the present alone: they can be had at any time without touching the memory of contacts.
+/// A contact as it is at the present instant, with what it remembers. Enough for normal forces and stored energies: they depend on
+/// the present alone and can be had at any time without touching the memory.
+struct Simulation::Impl::SeenContact {
+  std::size_t i;
+  std::size_t j;         ///< `noGrain` for a wall
+  Contact contact;       ///< as far as normal laws and stored energies read it
+  std::size_t pair;      ///< in pairConstants
+  double weight;         ///< share of the law that acts
+  V3 tangential, rolling;
+};
+
+template <class Law, class Visit>
+void Simulation::Impl::visitContacts(Visit&& visit) const {
+  const std::size_t n = model.materials.size();
+  const auto see = [](const Vec3& d, double radiusSum, const Vec3& dv, double mass, double radius) {
+    Contact c{};
+    const double distance = d.norm();
+    const Vec3 normal = d / std::max(distance, tiny);
+    c.n = {normal.x(), normal.y(), normal.z()};
+    c.overlap = radiusSum - distance;
+    c.separationSpeed = dv.dot(normal);
+    c.effectiveMass = mass;
+    c.effectiveRadius = radius;
+    return c;
+  };
+  const auto remember = [](const double* memory, std::size_t stride, SeenContact& seen) {
+    constexpr int t = Law::Tangential::stateSize;
+    if constexpr (t > 0) seen.tangential = {memory[0], memory[stride], memory[2 * stride]};
+    if constexpr (Law::Rolling::stateSize > 0) seen.rolling = {memory[t * stride], memory[(t + 1) * stride], memory[(t + 2) * stride]};
+  };
+  for (const SlabPairs& slab : pairs.slabs()) {
+    for (std::size_t k = 0; k < slab.i.size(); ++k) {
+      const auto i = static_cast<std::size_t>(slab.i[k]), j = static_cast<std::size_t>(slab.j[k]);
+      const GrainRow &a = state.rows[i], &b = state.rows[j];
+      SeenContact seen{i, j, see(positionOf(a) - positionOf(b), a.radius + b.radius, Vec3(a.vx - b.vx, a.vy - b.vy, a.vz - b.vz),
+                                 1 / (a.inverseMass + b.inverseMass), 1 / (a.inverseRadius + b.inverseRadius)),
+                       state.material[i] * n + state.material[j], 1, {}, {}};
+      if (!(seen.contact.overlap > 0)) continue;
+      remember(slab.memory.data() + k, slab.stride, seen);
+      visit(seen);
+    }
+  }
+  WallContacts contacts;
+  for (const SlabWalls& slab : walls.slabs()) {
+    for (const WallGroup& group : slab.groups) {
+      const auto g = static_cast<std::size_t>(group.grain);
+      const GrainRow& row = state.rows[g];
+      const WallPlace& place = walls.places()[group.wall];
+      const std::span<const std::uint32_t> features(slab.features.data() + group.first, static_cast<std::size_t>(group.last - group.first));
+      model.walls[group.wall].surface->contacts(place.pose.toLocal(positionOf(row)), row.radius, features, contacts);
+      for (const WallContact& contact : contacts) {
+        const Vec3 velocity = place.twist.at(place.pose.toWorld(contact.point));
+        SeenContact seen{g, noGrain, see(contact.distance * (place.pose.rotation * contact.normal), row.radius,
+                                         Vec3(row.vx, row.vy, row.vz) - velocity, 1 / row.inverseMass, row.radius),
+                         state.material[g] * n + model.walls[group.wall].material, contact.weight, {}, {}};
+        const auto candidate = std::lower_bound(features.begin(), features.end(), contact.feature) - features.begin();
+        remember(slab.candidates[static_cast<std::size_t>(group.first + candidate)].memory, 1, seen);
+        visit(seen);
+      }
+    }
+  }
+}
+
 void Simulation::Impl::addLoads(std::vector<double>& load) const {
   auto add = [&]<class Law>() {
     const auto* const constants = reinterpret_cast<const typename Law::Pair*>(pairConstants.data());
-    const auto forceOf = [&](const Vec3& d, double radiusSum, const Vec3& dv, double mass, double radius, std::size_t pair) {
-      Contact c{};
-      const double distance = d.norm();
-      const Vec3 n = d / std::max(distance, tiny);
-      c.n = {n.x(), n.y(), n.z()};
-      c.overlap = radiusSum - distance;
-      c.separationSpeed = dv.dot(n);
-      c.effectiveMass = mass;
-      c.effectiveRadius = radius;
-      return c.overlap > 0 ? std::abs(Law::Normal::force(constants[pair].normal, c, {model.timeStep, lead}).force) : 0.0;
-    };
-    const std::size_t n = model.materials.size();
-    for (const SlabPairs& slab : pairs.slabs()) {
-      for (std::size_t k = 0; k < slab.i.size(); ++k) {
-        const auto i = static_cast<std::size_t>(slab.i[k]), j = static_cast<std::size_t>(slab.j[k]);
-        const GrainRow &a = state.rows[i], &b = state.rows[j];
-        const double force = forceOf(positionOf(a) - positionOf(b), a.radius + b.radius, Vec3(a.vx - b.vx, a.vy - b.vy, a.vz - b.vz),
-                                     1 / (a.inverseMass + b.inverseMass), 1 / (a.inverseRadius + b.inverseRadius),
-                                     state.material[i] * n + state.material[j]);
-        load[i] += force;
-        load[j] += force;
-      }
-    }
-    WallContacts contacts;
-    for (const SlabWalls& slab : walls.slabs()) {
-      for (const WallGroup& group : slab.groups) {
-        const auto g = static_cast<std::size_t>(group.grain);
-        const GrainRow& row = state.rows[g];
-        const WallPlace& place = walls.places()[group.wall];
-        const std::span<const std::uint32_t> features(slab.features.data() + group.first, static_cast<std::size_t>(group.last - group.first));
-        model.walls[group.wall].surface->contacts(place.pose.toLocal(positionOf(row)), row.radius, features, contacts);
-        for (const WallContact& contact : contacts) {
-          const Vec3 velocity = place.twist.at(place.pose.toWorld(contact.point));
-          load[g] += contact.weight * forceOf(contact.distance * (place.pose.rotation * contact.normal), row.radius,
-                                              Vec3(row.vx, row.vy, row.vz) - velocity, 1 / row.inverseMass, row.radius,
-                                              state.material[g] * n + model.walls[group.wall].material);
-        }
-      }
-    }
+    visitContacts<Law>([&](const SeenContact& seen) {
+      const double force = seen.weight * std::abs(Law::Normal::force(constants[seen.pair].normal, seen.contact, {model.timeStep, lead}).force);
+      load[seen.i] += force;
+      if (seen.j != noGrain) load[seen.j] += force;
+    });
   };
   visitLaw(law, add);
+}
+
+double Simulation::Impl::storedInContactsOf(const std::vector<char>& grains) const {
+  double energy = 0;
+  auto add = [&]<class Law>() {
+    const auto* const constants = reinterpret_cast<const typename Law::Pair*>(pairConstants.data());
+    visitContacts<Law>([&](const SeenContact& seen) {
+      if (!grains[seen.i] && (seen.j == noGrain || !grains[seen.j])) return;
+      const typename Law::Pair& pair = constants[seen.pair];
+      double stored = Law::Normal::force(pair.normal, seen.contact, {model.timeStep, lead}).energy;
+      if constexpr (Law::Tangential::stateSize > 0) stored += Law::Tangential::stored(pair.tangential, seen.tangential);
+      if constexpr (Law::Rolling::stateSize > 0) stored += Law::Rolling::stored(pair.rolling, seen.contact, seen.rolling);
+      energy += seen.weight * stored;
+    });
+  };
+  visitLaw(law, add);
+  return energy;
 }
 
 void Simulation::Impl::fill(Snapshot& snapshot) {

@@ -133,6 +133,7 @@ void Simulation::Impl::leave() {
 }
 
 void Simulation::Impl::removeGrains(const std::vector<char>& goes) {
+  if (model.ledger) removedEnergy += storedInContactsOf(goes);
   std::vector<std::int32_t> stay;
   std::vector<std::int32_t> place(state.size(), -1);
   for (std::size_t g = 0; g < state.size(); ++g) {

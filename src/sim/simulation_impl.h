@@ -109,7 +109,13 @@ class Simulation::Impl {
     std::string partner;
   };
   DeepestContact surveyContacts() const;
+  static constexpr std::size_t noGrain = std::numeric_limits<std::size_t>::max();
+  struct SeenContact;
+  template <class Law, class Visit>
+  void visitContacts(Visit&& visit) const;
   double energyOf(std::size_t grain) const;
+  /// J: in the springs of all contacts that one of the marked grains takes part in.
+  double storedInContactsOf(const std::vector<char>& grains) const;
   void addLoads(std::vector<double>& load) const;
   std::uint64_t contactHash() const;
 
