@@ -64,6 +64,15 @@ Painter::Painter(const Style& style, const std::vector<WallLook>& looks, int sid
   gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
 }
 
+Painter::~Painter() {
+  // The members delete their OpenGL objects, which must not be those of another context that happens to be current.
+  try {
+    context_.makeCurrent();
+  } catch (...) {
+    // Then there is nothing to delete them in.
+  }
+}
+
 Image Painter::paint(const Frame& frame, const Vec3& up) {
   context_.makeCurrent();
   upload(frame);

@@ -18,6 +18,7 @@ class Painter {
 
   /// `side`: samples along the side of a pixel.
   Painter(const Style& style, const std::vector<WallLook>& looks, int side);
+  ~Painter();
 
   /// `up`: the unit vector, in the world, where the sky is brightest.
   Image paint(const Frame& frame, const Vec3& up);

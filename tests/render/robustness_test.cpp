@@ -164,6 +164,11 @@ TEST(Robustness, RenderersLiveSideBySide) {
   Renderer b(plainStyle(32, 32), {});
   EXPECT_EQ(b.draw(snapshot).width, 32);
   EXPECT_EQ(a.draw(snapshot).rgb, first.rgb);
+  {
+    Renderer passing(plainStyle(16, 16), {});
+    a.draw(snapshot);  // its context is current when the other one goes
+  }
+  EXPECT_EQ(a.draw(snapshot).rgb, first.rgb);
   Renderer moved = std::move(a);
   EXPECT_EQ(moved.draw(snapshot).rgb, first.rgb);
 }

@@ -17,7 +17,9 @@ struct Context::State {
   std::string description;
 
   ~State() {
-    if (context) OSMesaDestroyContext(context);
+    if (!context) return;
+    if (OSMesaGetCurrentContext() == context) OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
+    OSMesaDestroyContext(context);
   }
 };
 
