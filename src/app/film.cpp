@@ -75,7 +75,7 @@ void Film::draw() {
     }
     io::PngText text = parts_.text;
     text["renderer"] = renderer.description();
-    io::FrameWriter writer(2);
+    io::FrameWriter writer(1);
     for (std::size_t number = 0;; ++number) {
       Snapshot snapshot;
       {
@@ -89,7 +89,7 @@ void Film::draw() {
       text["time"] = fmt::format("{:.9g} s", snapshot.time);
       writer.write(parts_.folder / frameName(number), renderer.draw(snapshot), text);
     }
-    writer.finish();
+    writer.close();
   } catch (...) {
     const std::lock_guard lock(mutex_);
     failure_ = std::current_exception();

@@ -68,6 +68,18 @@ std::vector<unsigned char> preparePairs(const Model& model, std::size_t law) {
   return visitLaw(law, prepare);
 }
 
+bool allPairsAlike(const Model& model, std::vector<unsigned char>& pairConstants) {
+  const std::vector<char> meet = pairsThatMeet(model);
+  const auto first = std::find(meet.begin(), meet.end(), 1);
+  if (first == meet.end()) return true;
+  const std::size_t size = pairConstants.size() / meet.size();
+  const unsigned char* const alike = pairConstants.data() + static_cast<std::size_t>(first - meet.begin()) * size;
+  for (std::size_t pair = 0; pair < meet.size(); ++pair)
+    if (meet[pair] && std::memcmp(pairConstants.data() + pair * size, alike, size) != 0) return false;
+  std::memmove(pairConstants.data(), alike, size);
+  return true;
+}
+
 PairStiffness pairStiffness(const Model& model, std::size_t law, std::size_t a, std::size_t b, double effectiveMass) {
   auto read = [&]<class Law>() {
     const typename Law::Pair pair = prepareOne<Law>(model, a, b);

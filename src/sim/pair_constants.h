@@ -20,6 +20,10 @@ std::vector<char> pairsThatMeet(const Model& model);
 /// Throws Error(scene) that names law, pair and property when a pair that can meet lacks what the law reads.
 std::vector<unsigned char> preparePairs(const Model& model, std::size_t law);
 
+/// Do all pairs that can meet have the same constants (materials that differ in density or colour only)? They are then in the first row
+/// of `pairConstants` too, and kernels need not look them up.
+bool allPairsAlike(const Model& model, std::vector<unsigned char>& pairConstants);
+
 /// What decides how long a step may be for one pair of materials.
 struct PairStiffness {
   double stiffness;        ///< N/m: the larger of k_n and 7/2 k_t, which a sphere's rotation makes of a tangential spring

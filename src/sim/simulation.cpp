@@ -43,7 +43,7 @@ Simulation::Impl::Impl(Model given, int threads)
 
 void Simulation::Impl::prepareLaws() {
   pairConstants = preparePairs(model, law);
-  oneClass = model.materials.size() == 1;
+  oneClass = allPairsAlike(model, pairConstants);
   lead = model.integrator == Integrator::velocityVerlet ? 0.5 : 1.0;
   if (!(model.timeStep > 0)) throw Error(ErrorKind::scene, "The time step must be positive.");
   for (const Wall& wall : model.walls) {
@@ -63,8 +63,7 @@ void Simulation::Impl::prepareLaws() {
 void Simulation::Impl::prepareState() {
   state.verlet = model.integrator == Integrator::velocityVerlet;
   state.turns = lawTraits(law).turns;
-  for (const Grain& grain : model.grains)
-    state.add(grain, model.materials[grain.material].values[Property::density], 0.5 * model.timeStep * model.gravity);
+  for (const Grain& grain : model.grains) addGrain(grain);
   model.grains.clear();
   streams.resize(model.streams.size());
   counts.crossed.assign(model.counters.size(), 0);

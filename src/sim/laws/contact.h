@@ -22,8 +22,9 @@ struct Contact {
 /// The step as a law sees it. Memory is kept at half steps: it is advanced by a whole step, and the force is taken `lead` of a step
 /// beyond the old memory (½ for velocity Verlet, 1 for symplectic Euler, where memory and position belong to the same instant).
 struct StepOf {
-  double dt;
+  double dt;  ///< s
   double lead;
+  double perSecond = 1 / dt;  ///< kernels multiply rather than divide
 };
 
 }  // namespace tsubu::sim

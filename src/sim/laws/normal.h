@@ -19,8 +19,9 @@ struct NormalForce {
 /// within the last step, τ = δ/|v_n| ago, the dashpot acts for τ + ½ Δt of it, which η (½ |v_n| + δ/Δt) over Δt makes up for. Without
 /// it the restitution coefficient would depend on where in the step the grains happen to meet, by 0.3 % at a hundredth of a contact.
 TSUBU_INLINE double sampledSpeed(const Contact& c, StepOf step) {
-  const double v = c.separationSpeed, speed = std::abs(v), grown = c.overlap / step.dt;
-  return grown < speed ? std::copysign(0.5 * speed + grown, v) : v;
+  const double v = c.separationSpeed, speed = std::abs(v), grown = c.overlap * step.perSecond;
+  const double weighed = 0.5 * speed + grown;
+  return grown < speed ? (v < 0 ? -weighed : weighed) : v;
 }
 
 }  // namespace tsubu::sim
