@@ -21,9 +21,11 @@ constexpr double sphereFactor = 4.0 / 3.0 * std::numbers::pi;
 constexpr int triesPerSphere = 30;
 constexpr int mostSweeps = 3000;
 constexpr double densest = 0.63;                              // solid fraction of random close packing, a little less
-constexpr double largestGrowth = 0.02, leastGrowth = 0.0005;  // of the radii while overlaps are pushed apart
+constexpr double largestGrowth = 0.01, leastGrowth = 0.0005;  // of the radii while overlaps are pushed apart
 constexpr int patience = 100;                                 // sweeps without progress
-constexpr double listStretch = 1.12;                          // pairs up to this times contact distance are listed
+constexpr double relaxation = 1.6;    // over-relaxation of the pushes: half the sweeps of 1.0, and 1.8 no longer settles
+constexpr double shrinkage = 0.985;   // of the radii from try to try, when a request has failed
+constexpr double listStretch = 1.12;  // pairs up to this times contact distance are listed
 
 double cube(double r) { return r * r * r; }
 
@@ -178,9 +180,7 @@ class Packer {
     double bestDepth = std::numeric_limits<double>::infinity();
     listPairs();
     for (int number = 0, lastGain = 0; number < mostSweeps; ++number) {
-      const double depth = sweep(growth);
-      for (std::size_t i = 0; i < radii_.size(); ++i)
-        confinement_.confine(centres_[i], std::min(radii_[i] * growth, std::max(radii_[i], inradius_)));
+      const double depth = sweepAndConfine(growth);
       if (depth <= 0 && !overlaps()) return true;
       if (depth < 0.97 * bestDepth) {
         bestDepth = depth;
@@ -194,6 +194,14 @@ class Packer {
       if (listIsStale(growth)) listPairs();
     }
     return false;
+  }
+
+  double sweepAndConfine(double growth) {
+    const double depth = sweep(growth);
+    for (std::size_t i = 0; i < radii_.size(); ++i) {
+      confinement_.confine(centres_[i], std::min(radii_[i] * growth, std::max(radii_[i], inradius_)));
+    }
+    return depth;
   }
 
   // Pushes every pair to `growth` times its contact distance; returns the deepest overlap of the true radii met, over the sum of radii.
@@ -224,19 +232,30 @@ class Packer {
     });
   }
 
+  // Shrinks the spheres until they do come apart, to say what would have been possible.
   [[noreturn]] void fail() {
-    listPairs();
-    double scale = 1;  // of the radii, at which nothing overlaps any more
-    for (const Pair& pair : pairs_) {
-      scale = std::min(scale, (centres_[pair.i] - centres_[pair.j]).norm() / (radii_[pair.i] + radii_[pair.j]));
+    const double wanted = fraction_;
+    for (int attempt = 0; attempt < 30; ++attempt) {
+      for (double& r : radii_) r *= shrinkage;
+      fraction_ *= cube(shrinkage);
+      largest_ *= shrinkage;
+      if (comesApart(patience)) break;
     }
     throw Error(ErrorKind::scene,
                 fmt::format("{} grains, a solid fraction of {:.3f}, do not fit into the region at random; {:.3f} was reached.",
-                            radii_.size(), fraction_, fraction_ * cube(scale)),
+                            radii_.size(), wanted, fraction_),
                 "ask for fewer or smaller grains, or use a lattice");
   }
 
-  static constexpr double relaxation = 1.0;
+  bool comesApart(int sweeps) {
+    listPairs();
+    for (int i = 0; i < sweeps; ++i) {
+      const double depth = sweepAndConfine(1 + leastGrowth);
+      if (depth <= 0 && !overlaps()) return true;
+      if (listIsStale(1 + leastGrowth)) listPairs();
+    }
+    return false;
+  }
 
   const Region& region_;
   Confinement confinement_;
