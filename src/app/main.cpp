@@ -66,7 +66,9 @@ int execute(const Commands& commands, const RunOptions& options) {
     fmt::print("{}", scene::explain(scene));
     return 0;
   }
-  for (const std::string& warning : scene::build(scene).warnings) warn(warning);
+  const scene::Built built = scene::build(scene);
+  for (const std::string& warning : built.warnings) warn(warning);
+  for (const std::string& note : built.notes) fmt::print("note: {}\n", note);
   fmt::print("{}: fine.\n", options.scene);
   return 0;
 }

@@ -104,7 +104,8 @@ void buildWalls(const Scene& scene, Built& built) {
     } else {
       seen = placedMesh(scene, wall, std::get<MeshShape>(wall.shape));
       made.surface = std::make_shared<const sim::Surface>(seen);
-      for (const sim::MeshFault& fault : made.surface->faults()) built.warnings.push_back(fault.sentence);
+      for (const sim::MeshFault& fault : made.surface->faults())
+        (fault.remedy == sim::MeshRemedy::harmless ? built.notes : built.warnings).push_back(fault.sentence);
     }
     built.walls.push_back({std::move(seen), lookOf(scene, wall)});
     built.model.walls.push_back(std::move(made));

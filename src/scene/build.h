@@ -32,6 +32,7 @@ struct Built {
   std::vector<render::VisibleWall> walls;
   Box bounds;  ///< the part of the world that matters, for the renderer
   std::vector<std::string> warnings;
+  std::vector<std::string> notes;  ///< what is unusual but harmless: `tsubu check` says it
 };
 
 /// \brief Places the grains, loads the meshes, chooses the time step.

@@ -192,8 +192,8 @@ void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, const PassContex
     const V3 mean = 0.5 * (spin + wallSpin), difference = spin - wallSpin;
     s.ox[q] = mean.x, s.oy[q] = mean.y, s.oz[q] = mean.z;
     s.rx[q] = difference.x, s.ry[q] = difference.y, s.rz[q] = difference.z;
-    s.effectiveRadius[q] = row.radius;
-    s.inverseSpinInertia[q] = 2.5 * row.inverseMass * row.inverseRadius * row.inverseRadius;
+    s.inverseRadiusSum[q] = row.inverseRadius;
+    s.inverseInertiaSum[q] = row.inverseMass * row.inverseRadius * row.inverseRadius;
     s.smallerRadius[q] = row.radius;
     s.weight[q] = touches ? contacts[next].weight : 1;
     s.pairClass[q] = static_cast<std::int32_t>(context.material[group.grain] * context.materials + wall.material);

@@ -17,7 +17,15 @@
 namespace tsubu::sim {
 namespace {
 
-/// Four contacts at once: difference and sum of the two rows (x − x', r + r'; v − v', 1/m + 1/m'; rω + r'ω'), turned into columns.
+/// ω and 1/(m r²) of a grain, from its row.
+TSUBU_INLINE D4 spinRow(const GrainRow& row) {
+  const D4 inverseRadius{row.inverseRadius, row.inverseRadius, row.inverseRadius, row.inverseRadius};
+  const D4 mass{1, 1, 1, row.inverseMass};
+  return (load4(&row.sx) * inverseRadius) * mass;
+}
+
+/// Four contacts at once: difference and sum of the two rows (x − x', r + r'; v − v', 1/m + 1/m'; rω + r'ω', 1/r + 1/r'; ω − ω',
+/// 1/(m r²) + 1/(m' r'²)), turned into columns.
 template <class Law>
 TSUBU_INLINE void gatherFour(const GrainRow* rows, const std::int32_t* is, const std::int32_t* js, int q, Stage& s) {
   const D4 signs{-1, -1, -1, 1};
@@ -45,46 +53,39 @@ TSUBU_INLINE void gatherFour(const GrainRow* rows, const std::int32_t* is, const
     store4(s.sy + q, w[1]);
     store4(s.sz + q, w[2]);
   }
+  if constexpr (Law::rolls) {
+    store4(s.inverseRadiusSum + q, w[3]);
+    D4 r[4];
+    for (int k = 0; k < 4; ++k) r[k] = spinRow(rows[is[k]]) + signs * spinRow(rows[js[k]]);
+    transpose4(r[0], r[1], r[2], r[3]);
+    store4(s.rx + q, r[0]);
+    store4(s.ry + q, r[1]);
+    store4(s.rz + q, r[2]);
+    store4(s.inverseInertiaSum + q, r[3]);
+  }
 }
 
-/// Columns of the stage from the rows of both grains.
+/// Columns of the stage from the rows of both grains. The columns have room for a multiple of four: places beyond `count` repeat the
+/// last contact.
 template <class Law, bool oneClass, bool accounts>
 void gather(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, Stage& s) {
   const GrainRow* const rows = context.rows;
   int q = 0;
   for (; q + 4 <= count; q += 4) gatherFour<Law>(rows, is + q, js + q, q, s);
-  for (; q < count; ++q) {
-    const GrainRow& a = rows[is[q]];
-    const GrainRow& b = rows[js[q]];
-    s.dx[q] = a.x - b.x;
-    s.dy[q] = a.y - b.y;
-    s.dz[q] = a.z - b.z;
-    s.radiusSum[q] = a.radius + b.radius;
-    s.dvx[q] = a.vx - b.vx;
-    s.dvy[q] = a.vy - b.vy;
-    s.dvz[q] = a.vz - b.vz;
-    s.inverseMassSum[q] = a.inverseMass + b.inverseMass;
-    s.sx[q] = a.sx + b.sx;
-    s.sy[q] = a.sy + b.sy;
-    s.sz[q] = a.sz + b.sz;
-  }
-  if constexpr (Law::rolls || accounts || !oneClass) {
-    for (q = 0; q < count; ++q) {
-      const GrainRow& a = rows[is[q]];
-      const GrainRow& b = rows[js[q]];
-      if constexpr (Law::rolls) {
-        s.rx[q] = a.sx * a.inverseRadius - b.sx * b.inverseRadius;
-        s.ry[q] = a.sy * a.inverseRadius - b.sy * b.inverseRadius;
-        s.rz[q] = a.sz * a.inverseRadius - b.sz * b.inverseRadius;
-        s.effectiveRadius[q] = 1 / (a.inverseRadius + b.inverseRadius);
-        s.inverseSpinInertia[q] =
-            2.5 * (a.inverseMass * a.inverseRadius * a.inverseRadius + b.inverseMass * b.inverseRadius * b.inverseRadius);
-      }
-      if constexpr (accounts) s.smallerRadius[q] = smaller(a.radius, b.radius);
-      if constexpr (!oneClass)
-        s.pairClass[q] = static_cast<std::int32_t>(context.material[is[q]] * context.materials + context.material[js[q]]);
+  if (q < count) {
+    std::int32_t i[4], j[4];
+    for (int k = 0; k < 4; ++k) {
+      const int from = q + k < count ? q + k : count - 1;
+      i[k] = is[from];
+      j[k] = js[from];
     }
+    gatherFour<Law>(rows, i, j, q, s);
   }
+  if constexpr (accounts)
+    for (q = 0; q < count; ++q) s.smallerRadius[q] = smaller(rows[is[q]].radius, rows[js[q]].radius);
+  if constexpr (!oneClass)
+    for (q = 0; q < count; ++q)
+      s.pairClass[q] = static_cast<std::int32_t>(context.material[is[q]] * context.materials + context.material[js[q]]);
 }
 
 /// The law on every contact of the chunk. `memory` points to the columns of the contacts' memory.
@@ -126,8 +127,8 @@ void compute(const PassContext& context, int count, Stage& s, double* const* mem
     }
     if constexpr (Law::rolls) {
       c.relativeSpin = {s.rx[q], s.ry[q], s.rz[q]};
-      c.effectiveRadius = s.effectiveRadius[q];
-      c.inverseSpinInertia = s.inverseSpinInertia[q];
+      c.effectiveRadius = 1 / s.inverseRadiusSum[q];
+      c.inverseSpinInertia = 2.5 * s.inverseInertiaSum[q];
     }
     V3 tangential{0, 0, 0}, rolling{0, 0, 0};
     if constexpr (Law::Tangential::stateSize > 0) tangential = {t0[q], t1[q], t2[q]};

@@ -20,7 +20,8 @@ struct alignas(64) Stage {
   Column ox, oy, oz;        // walls: the mean spin ½(ω_i + Ω)
   // In, for rolling laws.
   Column rx, ry, rz;        // ω_i − ω_j
-  Column effectiveRadius, inverseSpinInertia;
+  Column inverseRadiusSum;   // 1/r_i + 1/r_j
+  Column inverseInertiaSum;  // 1/(m_i r_i²) + 1/(m_j r_j²)
   // In, when watched: the smaller radius. In, for walls: the share of a face in a contact that several faces carry.
   Column smallerRadius, weight;
   std::int32_t pairClass[chunkSize];  // row × column of the materials; only when there is more than one class

@@ -1,0 +1,160 @@
+"""The program as a user meets it: exit codes, files, interruption, messages. Usage: program_test.py TSUBU"""
+
+import csv
+import json
+import os
+import pathlib
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = ""
+
+SCENE = """
+title = "Two balls"
+[simulation]
+end = 0.2
+[materials]
+ball = { density = 1000 }
+[pairs]
+normal_stiffness = 1e5
+restitution = 0.8
+friction = 0.3
+[grains.balls]
+source = "list"
+radius = 0.02
+positions = [[0, 0, 0.06], [0.1, 0, 0.1]]
+[walls.floor]
+plane = {}
+[output]
+fps = 50
+[picture]
+width = 160
+height = 96
+quality = "draft"
+"""
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120, **options)
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = pathlib.Path(self.folder.name)
+        self.scene = self.path / "two.toml"
+        self.scene.write_text(SCENE)
+        self.out = self.path / "out"
+
+    def report(self):
+        return json.loads((self.out / "run.json").read_text())
+
+    def frames(self):
+        return sorted(path.name for path in (self.out / "frames").iterdir())
+
+    def test_run_writes_frames_ledger_and_report(self):
+        result = run("run", self.scene, "-o", self.out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.frames(), [f"{k:06}.png" for k in range(11)])
+        report = self.report()
+        for key in ("version", "scene", "threads", "dt", "dt_limit_by", "steps", "simulated_time", "wall_time", "grain_steps_per_second",
+                    "grains", "lost", "removed", "energy_residual", "state_hash", "frames", "renderer"):
+            self.assertIn(key, report)
+        self.assertEqual((report["grains"], report["frames"], report["lost"], report["ended"]), (2, 11, 0, "complete"))
+        self.assertAlmostEqual(report["simulated_time"], 0.2, places=9)
+        self.assertLess(report["energy_residual"], 0.005)
+        with open(self.out / "ledger.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 11)
+        self.assertEqual({len(row) for row in rows}, {len(rows[0])})
+        for k, row in enumerate(rows):
+            self.assertAlmostEqual(float(row["time_s"]), k / 50, places=9)
+            self.assertNotIn(None, row.values())
+        header = (self.out / "frames" / "000000.png").read_bytes()
+        self.assertEqual(struct.unpack(">II", header[16:24]), (160, 96))
+
+    def test_free_fall_in_the_ledger(self):
+        run("run", self.scene, "-o", self.out, "--no-frames")
+        with open(self.out / "ledger.csv", newline="") as file:
+            row = list(csv.DictReader(file))[1]
+        mass = 2 * 1000 * 4 / 3 * 3.141592653589793 * 0.02**3
+        kinetic = sum(float(row[name]) for name in ("kinetic_bulk_J", "kinetic_fluctuation_J", "kinetic_rotation_J"))
+        self.assertAlmostEqual(kinetic / (0.5 * mass * (9.81 * 0.02) ** 2), 1, places=6)
+        self.assertAlmostEqual(float(row["momentum_z"]) / (-mass * 9.81 * 0.02), 1, places=6)
+
+    def test_results_depend_on_neither_threads_nor_isa_nor_frames(self):
+        hashes = set()
+        for options in (["--threads", 1], ["--threads", 3], ["--isa", "portable"], ["--set", "output.fps=10"]):
+            run("run", self.scene, "-o", self.out, "--no-frames", *options)
+            hashes.add((self.report()["state_hash"]))
+        self.assertEqual(len(hashes), 1)
+
+    def test_until_set_and_no_frames(self):
+        result = run("run", self.scene, "-o", self.out, "--no-frames", "--until", "0.05", "--set", "grains.balls.radius=0.01")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertFalse((self.out / "frames").exists())
+        self.assertAlmostEqual(self.report()["simulated_time"], 0.05, places=6)
+
+    def test_a_shorter_run_leaves_no_frame_of_the_longer_one(self):
+        run("run", self.scene, "-o", self.out)
+        (self.out / "frames" / "notes.txt").write_text("mine")
+        run("run", self.scene, "-o", self.out, "--until", "0.04")
+        self.assertEqual(self.frames(), ["000000.png", "000001.png", "000002.png", "notes.txt"])
+
+    def test_interruption_leaves_complete_files(self):
+        program = subprocess.Popen([PROGRAM, "run", str(self.scene), "-o", str(self.out), "--until", "1000"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        deadline = time.time() + 60
+        while time.time() < deadline and not (self.out / "frames" / "000002.png").exists():
+            time.sleep(0.02)
+        program.send_signal(signal.SIGINT)
+        program.communicate(timeout=60)
+        self.assertEqual(program.returncode, 130)
+        report = self.report()
+        self.assertEqual(report["ended"], "interrupted")
+        self.assertEqual(len(self.frames()), report["frames"])
+        for name in self.frames():
+            self.assertTrue((self.out / "frames" / name).read_bytes().endswith(b"IEND\xaeB`\x82"))
+
+    def test_a_failing_simulation_keeps_its_frames(self):
+        result = run("run", self.scene, "-o", self.out, "--set", "pairs.normal_stiffness=50", "--set", "simulation.time_step=1e-5")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertRegex(result.stderr, r"error: Overlap of .* grain 0 at \(.*\) m, t = .* with wall 'floor'")
+        report = self.report()
+        self.assertEqual(report["ended"], "failed")
+        self.assertGreater(report["frames"], 1)
+        self.assertEqual(len(self.frames()), report["frames"])
+
+    def test_exit_codes_of_bad_input(self):
+        self.assertEqual(run("run", self.path / "absent.toml").returncode, 3)
+        self.assertEqual(run().returncode, 2)
+        self.assertEqual(run("run").returncode, 2)
+        self.assertEqual(run("fly", self.scene).returncode, 2)
+        self.assertEqual(run("run", self.scene, "--threads", "0").returncode, 2)
+        bad = run("check", self.scene, "--set", "pairs.frction=0.1")
+        self.assertEqual(bad.returncode, 2)
+        self.assertIn("did you mean 'friction'?", bad.stderr)
+        (self.path / "file").write_text("")
+        self.assertEqual(run("run", self.scene, "-o", self.path / "file").returncode, 3)
+        self.assertEqual(run("run", self.scene, "--isa", "mmx").returncode, 2)
+
+    def test_check_explain_reference_help_version(self):
+        self.assertIn("fine", run("check", self.scene).stdout)
+        explained = run("explain", self.scene)
+        self.assertEqual(explained.returncode, 0)
+        for word in ("linear", "spring", "bytes", "time step", "grain"):
+            self.assertIn(word, explained.stdout.lower())
+        self.assertIn("normal_stiffness", run("reference").stdout)
+        self.assertEqual(run("--help").returncode, 0)
+        self.assertRegex(run("--version").stdout, r"^tsubu \d+\.\d+\.\d+")
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
