@@ -10,6 +10,8 @@ namespace tsubu::sim {
 
 namespace {
 
+constexpr double mostSlender = 100;
+
 using Triangle = std::array<Vec3, 3>;
 
 Triangle corners(const TriangleMesh& mesh, std::size_t t) {
@@ -42,25 +44,27 @@ bool separated(const Triangle& a, const Triangle& b, const Vec3& normal, double 
 
 std::vector<std::pair<int, int>> findOverlaps(const TriangleMesh& mesh, double flat) {
   const std::size_t count = mesh.triangles.size();
-  std::vector<Box> boxes(count);
-  std::vector<Vec3> normals(count);
-  std::vector<double> heights(count);
+  std::vector<std::size_t> compact;  // the triangles that are looked at
+  std::vector<Box> boxes;
+  std::vector<Vec3> normals;
   for (std::size_t t = 0; t < count; ++t) {
-    for (const Vec3& x : corners(mesh, t)) boxes[t].extend(x);
     const Vec3 area = areaVector(mesh, mesh.triangles[t]);
-    normals[t] = area.normalized();
-    heights[t] = 2 * area.norm() / longestSide(mesh, mesh.triangles[t]);
+    const double longest = longestSide(mesh, mesh.triangles[t]);
+    if (2 * area.norm() * mostSlender < longest * longest) continue;
+    compact.push_back(t);
+    normals.push_back(area.normalized());
+    boxes.emplace_back();
+    for (const Vec3& x : corners(mesh, t)) boxes.back().extend(x);
   }
   const Bvh tree(boxes);
   std::vector<std::pair<int, int>> pairs;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Triangle a = corners(mesh, i);
+  for (std::size_t i = 0; i < compact.size(); ++i) {
+    const Triangle a = corners(mesh, compact[i]);
     tree.overlapping(boxes[i], [&](std::uint32_t j) {
-      if (j <= i) return;
-      const std::size_t wide = heights[i] >= heights[j] ? i : j;  // the plane of a sliver is not to be trusted
-      const Triangle b = corners(mesh, j);
-      if (lies(wide == i ? b : a, wide == i ? a[0] : b[0], normals[wide], flat) && !separated(a, b, normals[wide], 4 * flat))
-        pairs.emplace_back(static_cast<int>(i), static_cast<int>(j));
+      if (j <= i || std::abs(normals[i].dot(normals[j])) < 0.5) return;
+      const Triangle b = corners(mesh, compact[j]);
+      const bool coplanar = lies(b, a[0], normals[i], flat) || lies(a, b[0], normals[j], flat);
+      if (coplanar && !separated(a, b, normals[i], 4 * flat)) pairs.emplace_back(static_cast<int>(compact[i]), static_cast<int>(compact[j]));
     });
   }
   std::sort(pairs.begin(), pairs.end());

@@ -60,8 +60,12 @@ class FaultList {
 
   [[noreturn]] void refuse() const {
     std::vector<Diagnostic> diagnostics;
-    for (const MeshFault& fault : list())
-      if (fault.remedy == MeshRemedy::refused) diagnostics.push_back({{}, fault.sentence, "Mend the mesh in the program that wrote it."});
+    for (const MeshFault& fault : list()) {
+      if (fault.remedy != MeshRemedy::refused) continue;
+      Diagnostic& diagnostic = diagnostics.emplace_back();
+      diagnostic.message = fault.sentence;
+      diagnostic.hint = "Mend the mesh in the program that wrote it.";
+    }
     throw Error(ErrorKind::files, std::move(diagnostics));
   }
 
