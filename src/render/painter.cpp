@@ -19,6 +19,10 @@ int shadowTexels(const Picture& picture) {
 constexpr int coarseSize = 256;         // texels along the side of the map that finds penumbras
 constexpr double widestPenumbra = 20;   // texels of the fine map: `widest` of shadow.glsl
 
+Program resolver(const GlFunctions& gl, int side, int shows) {
+  return Program(gl, "screen.vert", "resolve.frag", {fmt::format("SIDE {}", side), fmt::format("SHOWS {}", shows)});
+}
+
 Vec3 encodedColour(Colour c) { return Vec3(c.red, c.green, c.blue) / 255.0; }
 
 }  // namespace
@@ -37,7 +41,8 @@ Painter::Painter(const Style& style, const std::vector<WallLook>& looks, int sid
       sheetProgram_(gl_, "sheet.vert", "sheet.frag"),
       shadowDiscProgram_(gl_, "shadow_disc.vert", "shadow_disc.frag"),
       shadowWallProgram_(gl_, "shadow_wall.vert", "shadow_wall.frag"),
-      resolveProgram_(gl_, "screen.vert", "resolve.frag", {fmt::format("SIDE {}", side)}),
+      classifyProgram_(gl_, "screen.vert", "classify.frag", {fmt::format("SIDE {}", side)}),
+      resolvePrograms_{resolver(gl_, side, 0), resolver(gl_, side, 1), resolver(gl_, side, 2)},
       grains_(gl_), neighbours_(gl_), surroundings_(gl_), walls_(gl_), sheets_(gl_), sunDiscs_(gl_), sunWalls_(gl_), looks_(gl_),
       names_(gl_, GL_R32UI, width_, height_),
       depths_(gl_, GL_DEPTH_COMPONENT32F, width_, height_),
@@ -45,13 +50,14 @@ Painter::Painter(const Style& style, const std::vector<WallLook>& looks, int sid
       sheetColours_(gl_, GL_RGBA8, width_, height_),
       shadowMap_(gl_, GL_DEPTH_COMPONENT32F, shadowSize_, shadowSize_),
       coarseMap_(gl_, GL_DEPTH_COMPONENT32F, coarseSize, coarseSize),
+      classes_(gl_, GL_DEPTH_COMPONENT32F, style.picture.width, style.picture.height),
       colours_(gl_, GL_RGBA8, style.picture.width, style.picture.height),
       namesTarget_(gl_, &names_, &depths_),
       wallSharesTarget_(gl_, &wallShares_, nullptr),
       sheetsTarget_(gl_, &sheetColours_, &depths_),
       shadowTarget_(gl_, nullptr, &shadowMap_),
       coarseTarget_(gl_, nullptr, &coarseMap_),
-      coloursTarget_(gl_, &colours_, nullptr) {
+      coloursTarget_(gl_, &colours_, &classes_) {
   std::vector<float> texels;
   for (const WallLook& look : looks) {
     const Vec3 light = toLinear(look.colour);
@@ -193,10 +199,27 @@ void Painter::drawSheets(const Frame& frame) {
 void Painter::resolve(const Frame& frame, const Vec3& up) {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, coloursTarget_.name());
   gl_.Viewport(0, 0, style_.picture.width, style_.picture.height);
-  gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_BLEND);
-  const Program& p = resolveProgram_;
-  p.use();
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthMask(GL_TRUE);
+  gl_.DepthFunc(GL_ALWAYS);
+  classifyProgram_.use();
+  classifyProgram_.set("depth", 0.0);
+  classifyProgram_.bind("names", 0, names_.name());
+  geometry_.drawScreen();
+  gl_.DepthMask(GL_FALSE);
+  gl_.DepthFunc(GL_EQUAL);
+  for (std::size_t shows = 0; shows < resolvePrograms_.size(); ++shows) {
+    const Program& program = resolvePrograms_[shows];
+    program.use();
+    program.set("depth", 0.25 * static_cast<double>(shows + 1));  // as in classify.frag
+    setScene(program, frame, up);
+    geometry_.drawScreen();
+  }
+  gl_.DepthMask(GL_TRUE);
+}
+
+void Painter::setScene(const Program& p, const Frame& frame, const Vec3& up) const {
   setView(p, frame);
   p.bind("grains", 0, grains_.texture());
   p.bind("neighbours", 1, neighbours_.texture());
@@ -231,7 +254,6 @@ void Painter::resolve(const Frame& frame, const Vec3& up) {
     const Vec3 row = scale[k] * turn.row(k).transpose();
     p.set(rows[k], Eigen::Vector4d(row.x(), row.y(), row.z(), 0.5 + scale[k] * origin[k]));
   }
-  geometry_.drawScreen();
 }
 
 Image Painter::read() const {

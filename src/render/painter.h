@@ -1,6 +1,7 @@
 #pragma once
 // The passes that make a picture of a frame, in their order. All of OpenGL is below this line.
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ class Painter {
   void drawWallShares(const Frame& frame);
   void drawSheets(const Frame& frame);
   void resolve(const Frame& frame, const Vec3& up);
+  void setScene(const Program& program, const Frame& frame, const Vec3& up) const;
   Image read() const;
 
   Style style_;
@@ -44,9 +46,10 @@ class Painter {
   Context context_;
   const GlFunctions& gl_;
   Geometry geometry_;
-  Program grainProgram_, wallProgram_, occlusionProgram_, sheetProgram_, shadowDiscProgram_, shadowWallProgram_, resolveProgram_;
+  Program grainProgram_, wallProgram_, occlusionProgram_, sheetProgram_, shadowDiscProgram_, shadowWallProgram_, classifyProgram_;
+  std::array<Program, 3> resolvePrograms_;  ///< for pixels that show nothing, walls, grains
   FloatArray grains_, neighbours_, surroundings_, walls_, sheets_, sunDiscs_, sunWalls_, looks_;
-  Texture names_, depths_, wallShares_, sheetColours_, shadowMap_, coarseMap_, colours_;
+  Texture names_, depths_, wallShares_, sheetColours_, shadowMap_, coarseMap_, classes_, colours_;
   Framebuffer namesTarget_, wallSharesTarget_, sheetsTarget_, shadowTarget_, coarseTarget_, coloursTarget_;
 };
 

@@ -1,4 +1,5 @@
-// SIDE, a constant of the build: samples along the side of a pixel.
+// Constants of the build: SIDE, samples along the side of a pixel; SHOWS, what the pixels show that this is for: 0 nothing, 1 walls, 2 grains
+// and anything else (see classify.frag).
 // From names to light: each surface that has a sample in the pixel is shaded once, where the mean of its samples lies, and counts by the
 // number of its samples.
 #include "rays.glsl"
@@ -41,7 +42,20 @@ struct Surface {
   vec3 point, normal, paint;
   float share;  // of the sky that is not hidden
   float gloss;
+  float veil;   // how far it has faded into the background
 };
+
+Surface wallAt(uint name, float depth, float share, vec3 ray) {
+  vec4 look = texelFetch(looks, lookOf(name));
+  Surface s;
+  s.point = ray * (nearPlane / depth);
+  s.normal = normalOf(name);
+  s.paint = look.rgb;
+  s.share = share;
+  s.gloss = 0.25 * (1.0 - look.a);
+  s.veil = look.a * smoothstep(0.6, 2.4, length(s.point - vec3(0.0, 0.0, -focus)) / focus);
+  return s;
+}
 
 Surface grainAt(int grain, vec3 ray) {
   vec4 ball = grainBall(grain), paint = grainPaint(grain), list = grainNeighbours(grain);
@@ -55,6 +69,7 @@ Surface grainAt(int grain, vec3 ray) {
   float width = 0.75 * hit * length(rays.xy) * float(SIDE) / (ball.w * facing);
   s.paint = paint.rgb * painted(int(paint.a), turnedBy(grainTurn(grain), s.normal), width);
   s.gloss = 1.0;
+  s.veil = 0.0;
   s.share = 1.0;
   int first = int(list.x), end = first + int(list.y);
   for (int k = first; k < end; ++k) {
@@ -64,29 +79,29 @@ Surface grainAt(int grain, vec3 ray) {
   return s;
 }
 
+float pow2(float x) { return x * x; }
+
 vec3 lit(Surface s, vec3 ray) {
   vec3 towardsEye = -normalize(ray);
   float height = dot(s.normal, sun);
-  float seen = mix(1.0, sunlight(s.point + shadowOffset * s.normal), shadowStrength);
-  float share = pow(s.share, occlusionStrength);
+  float seen = mix(1.0, sunlight(s.point + shadowOffset * s.normal, height > 0.0), shadowStrength);
+  float share = max(1.0 - occlusionStrength * (1.0 - s.share), 0.0);
   vec3 sky = mix(vec3(0.23, 0.22, 0.21), vec3(0.47, 0.50, 0.54), 0.5 + 0.5 * dot(s.normal, up)) * (skyStrength * share);
   vec3 direct = vec3(1.0, 0.965, 0.90) * (0.80 * sunStrength * seen);
   vec3 halfway = normalize(sun + towardsEye);
-  float mirror = pow(max(dot(s.normal, halfway), 0.0), 40.0) * 0.16 * step(0.0, height);
-  float rim = pow(1.0 - max(dot(s.normal, towardsEye), 0.0), 4.0) * 0.20;
+  float m2 = pow2(max(dot(s.normal, halfway), 0.0)), m8 = pow2(pow2(m2));
+  float mirror = pow2(pow2(m8)) * m8 * 0.16 * step(0.0, height);
+  float rim = pow2(pow2(1.0 - max(dot(s.normal, towardsEye), 0.0))) * 0.20;
   return s.paint * (direct * max(height, 0.0) + sky) + s.gloss * (direct * mirror + sky * rim);
 }
 
-void main() {
+#if SHOWS > 0
+// Each surface of the pixel is shaded once. Returns their sum, weighted by samples, and the number of samples.
+vec4 surfaces(ivec2 first, float wallShare, vec3 backLight) {
   const int samples = SIDE * SIDE;
-  ivec2 pixel = ivec2(gl_FragCoord.xy), first = pixel * SIDE;
-  vec3 backdrop = mix(skyTop, skyBottom, gl_FragCoord.y / pictureSize.y);
-  vec3 backLight = decoded(backdrop);
-  float wallShare = texelFetch(wallShares, pixel, 0).r;
   uint seen[samples];
   for (int k = 0; k < samples; ++k) seen[k] = texelFetch(names, first + ivec2(k % SIDE, k / SIDE), 0).r;
-  vec3 sum = vec3(0.0);
-  int covered = 0;
+  vec4 sum = vec4(0.0);
   for (;;) {
     // The first name left, its samples, and their mean place; they are then crossed out.
     uint name = 0u;
@@ -95,7 +110,7 @@ void main() {
       leader = seen[k] != 0u ? first + ivec2(k % SIDE, k / SIDE) : leader;
       name = seen[k] != 0u ? seen[k] : name;
     }
-    if (name == 0u) break;
+    if (name == 0u) return sum;
     bool wall = isWall(name);
     uint key = wall ? name >> lookShift : name;
     vec2 middle = vec2(0.0);
@@ -107,27 +122,29 @@ void main() {
       seen[k] = same ? 0u : seen[k];
     }
     vec3 ray = rayThrough((wall ? vec2(leader) : vec2(first) + middle / float(count)) + 0.5);
-    Surface s = grainAt(wall ? 0 : int(name) - 1, ray);
-    vec4 look = texelFetch(looks, lookOf(name));
-    float depth = texelFetch(depths, leader, 0).r;
-    float veil = 0.0;
-    if (wall) {
-      s.point = ray * (nearPlane / depth);
-      s.normal = normalOf(name);
-      s.paint = look.rgb;
-      s.share = wallShare;
-      s.gloss = 0.25 * (1.0 - look.a);
-      veil = look.a * smoothstep(0.6, 2.4, length(s.point - vec3(0.0, 0.0, -focus)) / focus);
-    }
-    sum += mix(softened(lit(s, ray)), backLight, veil) * float(count);
-    covered += count;
+    Surface s = wallAt(name, texelFetch(depths, leader, 0).r, wallShare, ray);
+#if SHOWS > 1
+    Surface grain = grainAt(wall ? 0 : int(name) - 1, ray);
+    if (!wall) s = grain;
+#endif
+    sum += vec4(mix(softened(lit(s, ray)), backLight, s.veil), 1.0) * float(count);
   }
-  vec3 mixed = encoded((sum + backLight * float(samples - covered)) / float(samples));
-  vec3 result = covered == 0 ? backdrop : mixed;
+}
+#endif
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy), first = pixel * SIDE;
+  float samples = float(SIDE * SIDE);
+  vec3 result = mix(skyTop, skyBottom, gl_FragCoord.y / pictureSize.y);
+#if SHOWS > 0
+  vec3 backLight = decoded(result);
+  vec4 sum = surfaces(first, texelFetch(wallShares, pixel, 0).r, backLight);
+  result = encoded((sum.rgb + backLight * (samples - sum.a)) / samples);
+#endif
   if (hasSheets) {
     vec4 over = vec4(0.0);
-    for (int k = 0; k < samples; ++k) over += texelFetch(sheets, first + ivec2(k % SIDE, k / SIDE), 0);
-    over /= float(samples);
+    for (int k = 0; k < SIDE * SIDE; ++k) over += texelFetch(sheets, first + ivec2(k % SIDE, k / SIDE), 0);
+    over /= samples;
     result = result * (1.0 - over.a) + over.rgb;
   }
   colour = vec4(floor(result * 255.0 + 0.5 + 0.98 * grainOfPaper(uvec2(pixel))) / 255.0, 1.0);

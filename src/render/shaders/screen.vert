@@ -1,4 +1,6 @@
-// One triangle over the whole picture.
+// One triangle over the whole picture, at a given depth.
+uniform float depth;
+
 void main() {
-  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.5, 1.0);
+  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, depth, 1.0);
 }

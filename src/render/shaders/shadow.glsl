@@ -9,13 +9,14 @@ const float narrowest = 2.0;  // texels: half the width of the tent, to smooth t
 const float widest = 20.0;    // as in painter.cpp
 const float taps = 6.0;       // blocks of 2×2 texels along a side, at most
 
-float sunlight(vec3 point) {
+// `facing`: whether the surface is turned towards the sun; else nothing need be known.
+float sunlight(vec3 point, bool facing) {
   vec4 p = vec4(point, 1.0);
   vec3 q = vec3(dot(sunX, p), dot(sunY, p), min(dot(sunZ, p), 1.0));  // beyond the map nothing stands in the way
   bool within = all(greaterThan(q.xy, vec2(0.0))) && all(lessThan(q.xy, vec2(1.0)));
   vec4 near = textureGather(coarseMap, q.xy);
   float blocker = min(min(near.x, near.y), min(near.z, near.w));
-  bool shaded = within && blocker < q.z;
+  bool shaded = facing && within && blocker < q.z;
   vec2 reach = clamp(penumbra * (q.z - blocker), narrowest, widest);
   vec2 size = vec2(textureSize(shadowMap, 0));
   vec2 place = q.xy * size - 0.5;
