@@ -173,7 +173,7 @@ inline constexpr std::array<Word<WallStyle>, 4> wallStyleWords{{{"opaque", WallS
 struct WallLook {
   WallStyle style = WallStyle::opaque;
   Colour colour{0xa9, 0xb4, 0xbd};
-  double opacity = 0.22;  ///< of a translucent wall seen face on, 0 to 1
+  double opacity = 0.14;  ///< of a translucent wall seen face on, 0 to 1
   bool ground = false;    ///< a floor without end: fades into the background, throws no shadow, is not outlined
 
   bool operator==(const WallLook&) const = default;

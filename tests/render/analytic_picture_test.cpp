@@ -288,6 +288,24 @@ TEST(AnalyticPicture, ALitSphereHasNoShadowOnItself) {
   EXPECT_EQ(Renderer(style, {}).draw(snapshot).rgb, without.rgb);
 }
 
+TEST(AnalyticPicture, AWallThatOnlyTheSunReachesAtAGrazingAngleHasNoShadowOnItself) {
+  Style style = plainStyle(120, 120);
+  style.light.shadows = true;
+  style.light.sky = 0;
+  WallLook look;
+  look.colour = {200, 200, 200};
+  const VisibleWall wall{quadMesh({-9, 0, -9}, {9, 0, -9}, {9, 0, 9}, {-9, 0, 9}), look};
+  for (const double degrees : {3.0, 10.0, 40.0, 80.0}) {  // of the rays above the plane
+    const double a = degrees * std::numbers::pi / 180;
+    style.light.from = {std::cos(a) * 0.6, -std::sin(a), std::cos(a) * 0.8};
+    const Image image = Renderer(style, {wall}, Box(Vec3(-9, -1, -9), Vec3(9, 1, 9))).draw({});
+    style.light.shadows = false;
+    const Image open = Renderer(style, {wall}, Box(Vec3(-9, -1, -9), Vec3(9, 1, 9))).draw({});
+    style.light.shadows = true;
+    EXPECT_EQ(image.rgb, open.rgb) << degrees;
+  }
+}
+
 TEST(AnalyticPicture, NeighboursHideTheSkyWhereTheyTouch) {
   Style style = plainStyle(200, 200);
   style.light.sun = 0;

@@ -31,9 +31,9 @@ TEST(WallLook, TranslucentTintsByItsOpacity) {
   const Image without = behindPane(WallStyle::hidden), thin = behindPane(WallStyle::translucent, 0.1), thick = behindPane(WallStyle::translucent, 0.6);
   const int x = 80, y = 60;
   const double red = without.pixel(x, y)[0];
-  // Face on, the pane lets 1 − opacity of the encoded colour through; its glint may add a little.
-  EXPECT_NEAR(thin.pixel(x, y)[0], 0.9 * red, 12);
-  EXPECT_NEAR(thick.pixel(x, y)[0], 0.4 * red, 12);
+  // Face on, the pane lets 1 − opacity of the encoded colour through and adds its own, which is blue with a seventh of white.
+  EXPECT_NEAR(thin.pixel(x, y)[0], 0.9 * red + 0.1 * 255 / 7, 5);
+  EXPECT_NEAR(thick.pixel(x, y)[0], 0.4 * red + 0.6 * 255 / 7, 5);
   EXPECT_GT(thick.pixel(x, y)[2], thin.pixel(x, y)[2] + 60);
   EXPECT_TRUE(isBackground(thin.pixel(3, 3)));
 }
@@ -50,7 +50,8 @@ TEST(WallLook, TwoPanesTintMoreThanOneInEitherOrder) {
   std::swap(snapshot.walls[0], snapshot.walls[1]);
   const Image swapped = Renderer(plainStyle(), {pane, pane}).draw(snapshot);
   EXPECT_EQ(two.rgb, swapped.rgb);
-  EXPECT_NEAR(two.pixel(80, 60)[1], 255 * 0.7 * 0.7, 6);
+  const double own = 255.0 / 7;  // green of a pane
+  EXPECT_NEAR(two.pixel(80, 60)[1], (255 * 0.7 + own * 0.3) * 0.7 + own * 0.3, 5);
 }
 
 TEST(WallLook, APaneBehindAGrainDoesNotTintIt) {

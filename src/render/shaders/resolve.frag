@@ -43,6 +43,7 @@ struct Surface {
   float share;  // of the sky that is not hidden
   float gloss;
   float veil;   // how far it has faded into the background
+  vec2 slope;   // see slopeOf in shadow.glsl; discs that stand for grains never shade their own grain
 };
 
 Surface wallAt(uint name, float depth, float share, vec3 ray) {
@@ -53,6 +54,7 @@ Surface wallAt(uint name, float depth, float share, vec3 ray) {
   s.paint = look.rgb;
   s.share = share;
   s.gloss = 0.25 * (1.0 - look.a);
+  s.slope = slopeOf(s.normal);
   s.veil = look.a * smoothstep(0.6, 2.4, length(s.point - vec3(0.0, 0.0, -focus)) / focus);
   return s;
 }
@@ -70,6 +72,7 @@ Surface grainAt(int grain, vec3 ray) {
   s.paint = paint.rgb * painted(int(paint.a), turnedBy(grainTurn(grain), s.normal), width);
   s.gloss = 1.0;
   s.veil = 0.0;
+  s.slope = vec2(0.0);
   s.share = 1.0;
   int first = int(list.x), end = first + int(list.y);
   for (int k = first; k < end; ++k) {
@@ -84,10 +87,10 @@ float pow2(float x) { return x * x; }
 vec3 lit(Surface s, vec3 ray) {
   vec3 towardsEye = -normalize(ray);
   float height = dot(s.normal, sun);
-  float seen = mix(1.0, sunlight(s.point + shadowOffset * s.normal, height > 0.0), shadowStrength);
+  float seen = mix(1.0, sunlight(s.point + shadowOffset * s.normal, height > 0.0, s.slope), shadowStrength);
   float share = max(1.0 - occlusionStrength * (1.0 - s.share), 0.0);
   vec3 sky = mix(vec3(0.23, 0.22, 0.21), vec3(0.47, 0.50, 0.54), 0.5 + 0.5 * dot(s.normal, up)) * (skyStrength * share);
-  vec3 direct = vec3(1.0, 0.965, 0.90) * (0.80 * sunStrength * seen);
+  vec3 direct = vec3(1.0, 0.965, 0.90) * (0.90 * sunStrength * seen);
   vec3 halfway = normalize(sun + towardsEye);
   float m2 = pow2(max(dot(s.normal, halfway), 0.0)), m8 = pow2(pow2(m2));
   float mirror = pow2(pow2(m8)) * m8 * 0.16 * step(0.0, height);

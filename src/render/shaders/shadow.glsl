@@ -9,8 +9,15 @@ const float narrowest = 2.0;  // texels: half the width of the tent, to smooth t
 const float widest = 20.0;    // as in painter.cpp
 const float taps = 6.0;       // blocks of 2×2 texels along a side, at most
 
-// `facing`: whether the surface is turned towards the sun; else nothing need be known.
-float sunlight(vec3 point, bool facing) {
+// How the depth of a plane with that normal changes with the place in the map: a wall must not be shaded by its own slope.
+vec2 slopeOf(vec3 normal) {
+  vec3 along = vec3(dot(normal, sunX.xyz) / dot(sunX.xyz, sunX.xyz), dot(normal, sunY.xyz) / dot(sunY.xyz, sunY.xyz),
+                    dot(normal, sunZ.xyz) / dot(sunZ.xyz, sunZ.xyz));
+  return clamp(-along.xy / along.z, -8.0, 8.0);
+}
+
+// `facing`: whether the surface is turned towards the sun; else nothing need be known. `slope`: of the surface, see slopeOf.
+float sunlight(vec3 point, bool facing, vec2 slope) {
   vec4 p = vec4(point, 1.0);
   vec3 q = vec3(dot(sunX, p), dot(sunY, p), min(dot(sunZ, p), 1.0));  // beyond the map nothing stands in the way
   bool within = all(greaterThan(q.xy, vec2(0.0))) && all(lessThan(q.xy, vec2(1.0)));
@@ -27,7 +34,11 @@ float sunlight(vec3 point, bool facing) {
   for (float j = 0.0; j < blocks.y; ++j) {
     for (float i = 0.0; i < blocks.x; ++i) {
       vec2 texel = first + stride * vec2(i, j);
-      vec4 open = step(q.z, textureGather(shadowMap, (texel + 1.0) / size));  // texels (0,1), (1,1), (1,0), (0,0) of the block
+      // The depth that the surface has at the texels (0,1), (1,1), (1,0), (0,0) of the block.
+      float corner = q.z + dot(slope, (texel - place) / size);
+      vec2 next = slope / size;
+      vec4 own = min(corner + vec4(next.y, next.x + next.y, next.x, 0.0), 1.0);
+      vec4 open = step(own, textureGather(shadowMap, (texel + 1.0) / size));
       vec2 a = max(1.0 - abs(texel - place) / reach, 0.0), b = max(1.0 - abs(texel + 1.0 - place) / reach, 0.0);
       vec4 weight = vec4(a.x * b.y, b.x * b.y, b.x * a.y, a.x * a.y);
       lit += dot(open, weight);

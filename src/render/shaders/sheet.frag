@@ -15,8 +15,8 @@ void main() {
   float grazing = 1.0 - abs(facing);
   // Like a pane: more opaque at a grazing angle, a glint where the sun is mirrored.
   float glint = pow(max(dot(normal, normalize(sun + towardsEye)), 0.0), 60.0);
-  float faceOpacity = paint.a + (1.0 - paint.a) * (0.55 * grazing * grazing * grazing + 0.25 * glint);
-  vec3 face = paint.rgb * (0.86 + 0.14 * dot(normal, sun)) + 0.5 * glint;
+  float faceOpacity = paint.a + (1.0 - paint.a) * (0.5 * grazing * grazing * grazing + 0.25 * glint);
+  vec3 face = mix(paint.rgb, vec3(1.0), 0.15) * (0.9 + 0.1 * dot(normal, sun)) + 0.5 * glint;
   float lineOpacity = paint.a * clamp(shape.y + 0.5 - abs(shape.x), 0.0, 1.0);
   bool line = shape.w > 0.5;
   float opacity = line ? lineOpacity : min(faceOpacity, 1.0);
