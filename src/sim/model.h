@@ -97,7 +97,7 @@ struct Model {
 
 /// The largest step that is safe before any contact is known, and which pair of materials set it.
 struct TimeStepChoice {
-  double limit = 0;      ///< s: stability limit of the stiffest pair on the smallest grain with twelve contacts
+  double limit = 0;      ///< s: stability limit of the stiffest way in which the smallest grains of a packing can swing (S2, S3)
   std::string limitedBy;
 };
 

@@ -80,12 +80,12 @@ bool allPairsAlike(const Model& model, std::vector<unsigned char>& pairConstants
   return true;
 }
 
-PairStiffness pairStiffness(const Model& model, std::size_t law, std::size_t a, std::size_t b, double effectiveMass) {
-  auto read = [&]<class Law>() {
+std::array<ContactMode, 3> contactModes(const Model& model, std::size_t law, std::size_t a, std::size_t b, double inverseMass) {
+  auto read = [&]<class Law>() -> std::array<ContactMode, 3> {
     const typename Law::Pair pair = prepareOne<Law>(model, a, b);
-    const double normal = Law::Normal::stiffness(pair.normal);
-    return PairStiffness{std::max(normal, 3.5 * Law::Tangential::stiffness(pair.tangential)), normal,
-                         Law::Normal::damping(pair.normal, effectiveMass)};
+    const double damping = Law::Normal::damping(pair.normal, 1 / inverseMass);
+    return {ContactMode{Law::Normal::stiffness(pair.normal) * inverseMass, damping * inverseMass},
+            Law::Tangential::mode(pair.tangential, damping, inverseMass), Law::Rolling::mode(pair.rolling, inverseMass)};
   };
   return visitLaw(law, read);
 }

@@ -1,8 +1,10 @@
 #pragma once
 // From materials to the constants that laws use, and what else must be known of a law without its type.
 
+#include <array>
 #include <vector>
 
+#include "sim/laws/contact.h"
 #include "sim/model.h"
 
 namespace tsubu::sim {
@@ -24,12 +26,7 @@ std::vector<unsigned char> preparePairs(const Model& model, std::size_t law);
 /// of `pairConstants` too, and kernels need not look them up.
 bool allPairsAlike(const Model& model, std::vector<unsigned char>& pairConstants);
 
-/// What decides how long a step may be for one pair of materials.
-struct PairStiffness {
-  double stiffness;        ///< N/m: the larger of k_n and 7/2 k_t, which a sphere's rotation makes of a tangential spring
-  double normalStiffness;  ///< N/m
-  double damping;          ///< kg/s of the normal dashpot
-};
-PairStiffness pairStiffness(const Model& model, std::size_t law, std::size_t a, std::size_t b, double effectiveMass);
+/// How one contact of a pair of materials can swing: along the normal, across it, rolling. `inverseMass`: 1/m_a + 1/m_b, 1/kg.
+std::array<ContactMode, 3> contactModes(const Model& model, std::size_t law, std::size_t a, std::size_t b, double inverseMass);
 
 }  // namespace tsubu::sim

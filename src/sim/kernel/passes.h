@@ -115,6 +115,7 @@ void compute(const PassContext& context, int count, Stage& s, double* const* mem
     const V3 dv{s.dvx[q], s.dvy[q], s.dvz[q]};
     c.separationSpeed = dot(dv, c.n);
     c.effectiveMass = reciprocal * safeDistance * s.radiusSum[q];
+    c.inverseEffectiveMass = s.inverseMassSum[q];
     double arm = 0;
     if constexpr (Law::turns) {
       const double inverseRadiusSum = reciprocal * safeDistance * s.inverseMassSum[q];

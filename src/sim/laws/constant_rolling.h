@@ -26,12 +26,15 @@ struct ConstantRolling {
     double rollingFriction;  // μ_r
   };
   static Pair prepare(const PropertyValues& values, double) { return {values[Property::rollingFriction]}; }
+  /// Bounded by R2 in any step.
+  static ContactMode mode(const Pair&, double) { return {}; }
 
   TSUBU_LAW RollingMoment moment(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, V3&) {
     const double spin = norm(c.relativeSpin);
     const double limit = p.rollingFriction * c.effectiveRadius * std::abs(normal.force);
     const double stop = spin / (c.inverseSpinInertia * step.dt);
-    return {-(smaller(limit, stop) / larger(spin, tiny)) * c.relativeSpin, 0, 0};
+    const V3 resistance = (smaller(limit, stop) / larger(spin, tiny)) * c.relativeSpin;
+    return {-resistance, 0, 0, dot(resistance, c.relativeSpin) * step.dt};
   }
 };
 

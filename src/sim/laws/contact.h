@@ -14,6 +14,7 @@ struct Contact {
   V3 slip;                   ///< v_t, velocity of i's surface over j's at the contact point, m/s
   V3 relativeSpin;           ///< ω_i − ω_j, rad/s; only set for laws that resist rolling
   double effectiveMass;      ///< m*, kg
+  double inverseEffectiveMass; ///< 1/m*, 1/kg
   double effectiveRadius;    ///< R*, m; only set for laws that read it
   double inverseSpinInertia; ///< 1/I_i + 1/I_j, 1/(kg m²); only set for laws that resist rolling
   double frameAngle;         ///< ω̄·n Δt, rad: how far the contact turns about n in a step, ω̄ a mean of ω_i and ω_j
@@ -25,6 +26,18 @@ struct StepOf {
   double dt;  ///< s
   double lead;
   double perSecond = 1 / dt;  ///< kernels multiply rather than divide
+};
+
+/// T6: a dashpot of this ratio c/k (s) keeps the tangential and rolling springs of velocity Verlet from gaining energy. They are
+/// stretched by velocities carried on by half a step (I2) and lag a little behind, and a lag gives an oscillation W⁴/4 of its energy
+/// per step, W = ω Δt. The dashpot takes away W_c² W², with W_c = Δt √(k/m) of the contact alone. Of third order in Δt.
+TSUBU_INLINE double quieting(double stiffnessOverMass, StepOf step) {
+  return step.lead < 1 ? stiffnessOverMass * step.dt * step.dt * step.dt : 0;
+}
+
+/// One way in which a contact can swing, for the time step: ω² in 1/s², and what its dashpot does, 2ζω in 1/s.
+struct ContactMode {
+  double stiffness = 0, damping = 0;
 };
 
 }  // namespace tsubu::sim

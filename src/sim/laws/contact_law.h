@@ -57,19 +57,17 @@ struct ContactLaw {
       result.force = result.force + tangential.force;
       result.couple = cross(c.n, tangential.force);
       if constexpr (withEnergy) {
-        const double work = -dot(tangential.force, c.slip) * step.dt;
         energy.storedTangential = (1 - step.lead) * tangential.storedBefore + step.lead * tangential.storedAfter;
         energy.tangential = tangential.dashpot;
-        energy.friction = work - (tangential.storedAfter - tangential.storedBefore) - tangential.dashpot;
+        energy.friction = tangential.friction;
       }
     }
     if constexpr (R::acts) {
       const RollingMoment rolling = R::moment(p.rolling, c, normal, step, rollingMemory);
       result.moment = rolling.moment;
       if constexpr (withEnergy) {
-        const double work = -dot(rolling.moment, c.relativeSpin) * step.dt;
         energy.storedRolling = (1 - step.lead) * rolling.storedBefore + step.lead * rolling.storedAfter;
-        energy.rolling = work - (rolling.storedAfter - rolling.storedBefore);
+        energy.rolling = rolling.dissipated;
       }
     }
     return result;

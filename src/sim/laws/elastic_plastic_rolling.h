@@ -34,6 +34,12 @@ struct ElasticPlasticRolling {
     return {mu, 2.25 * normalStiffness * mu * mu, values.valueOr(Property::rollingDamping, 0.3)};
   }
 
+  /// At most: k_r (1/I_i + 1/I_j) with R* below both radii, which a wall reaches.
+  static ContactMode mode(const Pair& p, double inverseMass) {
+    const double stiffness = 2.5 * p.stiffnessPerArea * inverseMass;
+    return {stiffness, 2 * p.dampingRatio * std::sqrt(3.5 * stiffness)};
+  }
+
   TSUBU_LAW double stiffness(const Pair& p, const Contact& c) { return p.stiffnessPerArea * c.effectiveRadius * c.effectiveRadius; }
 
   /// Energy that a memory holds, J.
@@ -42,7 +48,7 @@ struct ElasticPlasticRolling {
   TSUBU_LAW RollingMoment moment(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, V3& memory) {
     const double k = stiffness(p, c);
     const double inertia = 3.5 / c.inverseSpinInertia;
-    const double damping = 2 * p.dampingRatio * std::sqrt(inertia * k);
+    const double damping = larger(2 * p.dampingRatio * std::sqrt(inertia * k), k * quieting(k * c.inverseSpinInertia, step));
     const V3 rolling = c.relativeSpin - dot(c.relativeSpin, c.n) * c.n;
     const V3 before = carried(memory, c.n, c.frameAngle);
     const V3 gain = (k * step.dt) * rolling;
@@ -52,7 +58,9 @@ struct ElasticPlasticRolling {
     const bool yields = size > limit;
     const double keep = yields ? limit / larger(size, tiny) : 1.0;
     memory = keep * (before + gain);
-    return {-keep * trial - (yields ? 0.0 : damping) * rolling, stored(p, c, before), stored(p, c, memory)};
+    const double active = yields ? 0.0 : damping, storedBefore = stored(p, c, before), storedAfter = stored(p, c, memory);
+    const double work = (keep * dot(before + 0.5 * gain, rolling) + active * norm2(rolling)) * step.dt;
+    return {-keep * trial - active * rolling, storedBefore, storedAfter, work - (storedAfter - storedBefore)};
   }
 };
 

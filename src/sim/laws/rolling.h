@@ -9,6 +9,7 @@ struct RollingMoment {
   V3 moment;            ///< on i, N m; j gets the opposite
   double storedBefore;  ///< J
   double storedAfter;   ///< J
+  double dissipated;    ///< in this step, J
 };
 
 /// Grains roll freely: no moment, no memory.
@@ -20,6 +21,7 @@ struct FreeRolling {
   static constexpr bool acts = false;
   struct Pair {};
   static Pair prepare(const PropertyValues&, double) { return {}; }
+  static ContactMode mode(const Pair&, double) { return {}; }
 };
 
 }  // namespace tsubu::sim

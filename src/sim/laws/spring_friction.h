@@ -10,7 +10,9 @@
 //   μ    friction coefficient                                  δ_t  tangential displacement, m
 //
 // The memory is k_t δ_t in N. It is advanced with the slip of a whole step and read at `lead` of a step, so that in velocity Verlet
-// the spring's work over a step is exactly the change of its energy: a sticking contact leaks nothing (docs/physics.md, T5).
+// the spring's work over a step is exactly the change of its energy: a sticking contact leaks nothing (docs/physics.md, T5). In
+// symplectic Euler the account takes the spring's mean force over the step, for the same reason.
+//   T6   η_t ≥ k_t·3 (7/2 k_t/m*) Δt³ in velocity Verlet (contact.h, quieting): matters for nearly elastic contacts alone
 //
 // Cutting back is passive: what the spring loses beyond its work is friction, and never less than nothing. Luding (Granular Matter 10
 // (2008) 235) keeps the dashpot whole and gives the spring the rest, limit − η_t v_t; where the dashpot alone exceeds the limit, that
@@ -51,12 +53,17 @@ struct SpringFriction {
   }
 
   static double stiffness(const Pair& p) { return p.stiffness; }
+  /// A sphere's rotation makes 7/2 of a tangential spring: 1/m + r²/I.
+  static ContactMode mode(const Pair& p, double normalDamping, double inverseMass) {
+    return {3.5 * p.stiffness * inverseMass, 3.5 * (p.dampingOfNormal * normalDamping * inverseMass + p.dampingPerMass)};
+  }
 
   /// Energy that a memory holds, J.
   TSUBU_LAW double stored(const Pair& p, V3 memory) { return p.half * norm2(memory); }
 
   TSUBU_LAW TangentialForce force(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, V3& memory) {
-    const double damping = p.dampingOfNormal * normal.damping + p.dampingPerMass * c.effectiveMass;
+    const double own = p.dampingOfNormal * normal.damping + p.dampingPerMass * c.effectiveMass;
+    const double damping = larger(own, p.stiffness * quieting(3.5 * p.stiffness * c.inverseEffectiveMass, step));
     const V3 before = carried(memory, c.n, c.frameAngle);
     const V3 gain = (p.stiffness * step.dt) * c.slip;
     const V3 trial = before + step.lead * gain + damping * c.slip;
@@ -65,7 +72,9 @@ struct SpringFriction {
     const double keep = size > limit ? limit / larger(size, tiny) : 1.0;
     const V3 force = -keep * trial;
     memory = keep * (before + gain);
-    return {force, stored(p, before), stored(p, memory), keep * damping * norm2(c.slip) * step.dt};
+    const double storedBefore = stored(p, before), storedAfter = stored(p, memory);
+    const double springWork = keep * dot(before + 0.5 * gain, c.slip) * step.dt;
+    return {force, storedBefore, storedAfter, keep * damping * norm2(c.slip) * step.dt, springWork - (storedAfter - storedBefore)};
   }
 };
 

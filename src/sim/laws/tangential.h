@@ -13,7 +13,8 @@ struct TangentialForce {
   V3 force;             ///< on i, N
   double storedBefore;  ///< energy in the memory as it was, J
   double storedAfter;   ///< energy in the memory as it is left, J
-  double dashpot;       ///< dissipated by the dashpot in this step, J; the rest of the work is friction
+  double dashpot;       ///< dissipated by the dashpot in this step, J
+  double friction;      ///< dissipated by sliding in this step, J
 };
 
 /// No friction: no tangential force, no torque, no memory.
@@ -25,7 +26,7 @@ struct Frictionless {
   static constexpr bool acts = false;
   struct Pair {};
   static Pair prepare(const PropertyValues&, double) { return {}; }
-  static double stiffness(const Pair&) { return 0; }
+  static ContactMode mode(const Pair&, double, double) { return {}; }
 };
 
 }  // namespace tsubu::sim
