@@ -6,6 +6,9 @@
 
 #include "sim/laws/arithmetic.h"
 
+// Always inlined, so that no calling convention is involved.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace tsubu::sim {
 
 typedef double D4 __attribute__((vector_size(32)));
