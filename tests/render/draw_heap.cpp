@@ -1,5 +1,6 @@
 // draw_heap FILE: the bytes of a picture with everything in it, for comparing runs of different processes.
 
+#include <cmath>
 #include <fstream>
 #include <iostream>
 
@@ -21,9 +22,12 @@ int main(int count, char** arguments) {
   Snapshot snapshot;
   Random random(7, 1);
   for (int k = 0; k < 3000; ++k) {
+    // One number at a time: compilers evaluate arguments in different orders.
     const double x = random.normal() * 0.2, y = random.normal() * 0.2, top = 0.5 * std::exp(-5 * (x * x + y * y));
-    addGrain(snapshot, Vec3(x, y, random.uniform(0, top) + 0.02), random.uniform(0.01, 0.02), 0,
-             Quat(random.normal(), random.normal(), random.normal(), random.normal()).normalized());
+    const double z = random.uniform(0, top) + 0.02, radius = random.uniform(0.01, 0.02);
+    Quat orientation;
+    for (double& c : orientation.coeffs()) c = random.normal();
+    addGrain(snapshot, Vec3(x, y, z), radius, 0, orientation.normalized());
   }
   WallLook ground, glass;
   ground.ground = true;
