@@ -4,7 +4,8 @@
 //   T1   F_t = −k_t δ_t − η_t v_t
 //   T2   |F_t| ≤ μ |F_n|; beyond it spring and dashpot are cut back by the same factor, so that together they are the limit
 //   T3   δ_t is carried with the contact: turned with n and with a mean spin about n, kept tangential at unchanged length
-//   T4   η_t = η_n √(k_t/k_n): the damping ratio of the normal contact; or η_t = m* γ_t from a rate
+//   T4   η_t = η_n √(2 k_t/(7 k_n)): the damping ratio of the normal contact, for a mass of 2/7 m* (a sphere turns as it slips);
+//        or η_t = m* γ_t from a rate
 //
 //   k_t  tangential stiffness, N/m (2/7 k_n when absent)      v_t  slip velocity, m/s
 //   μ    friction coefficient                                  δ_t  tangential displacement, m
@@ -48,7 +49,7 @@ struct SpringFriction {
     if (values.has(Property::tangentialDampingRate))
       p.dampingPerMass = values[Property::tangentialDampingRate];
     else
-      p.dampingOfNormal = std::sqrt(p.stiffness / normalStiffness);
+      p.dampingOfNormal = std::sqrt(p.stiffness / (3.5 * normalStiffness));
     return p;
   }
 
