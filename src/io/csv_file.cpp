@@ -16,48 +16,46 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-std::vector<std::string> split(std::string_view line) {
-  std::vector<std::string> fields;
+void split(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
   for (;;) {
     const auto comma = line.find(',');
-    fields.emplace_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return fields;
+    fields.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return;
     line.remove_prefix(comma + 1);
   }
 }
 
-std::string_view nextLine(std::string_view& text) {
-  const auto end = text.find('\n');
-  const std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  return line;
-}
-
 }  // namespace
 
-CsvTable parseCsv(std::string_view text, const std::string& name) {
-  CsvTable table;
-  table.file = name;
+CsvReader CsvReader::fromFile(const std::string& path) { return CsvReader(readTextFile(path, "file"), path); }
+
+CsvReader::CsvReader(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {
   constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
-  if (text.substr(0, byteOrderMark.size()) == byteOrderMark) text.remove_prefix(byteOrderMark.size());
-  for (int number = 1; !text.empty(); ++number) {
-    const std::string_view line = trimmed(nextLine(text));
-    if (line.empty() || line.front() == '#') continue;
-    std::vector<std::string> fields = split(line);
-    if (table.columns.empty()) {
-      table.columns = std::move(fields);
-    } else if (fields.size() != table.columns.size()) {
-      throw Error(ErrorKind::scene,
-                  {{{name, number, 1},
-                    fmt::format("This row has {} fields; the header names {} columns.", fields.size(), table.columns.size()),
-                    {}}});
-    } else {
-      table.rows.push_back({number, std::move(fields)});
-    }
-  }
-  return table;
+  if (text_.starts_with(byteOrderMark)) at_ = byteOrderMark.size();
+  Row header;
+  if (nextLine(header)) columns_.assign(header.fields.begin(), header.fields.end());
 }
 
-CsvTable readCsv(const std::string& path) { return parseCsv(readTextFile(path, "file"), path); }
+bool CsvReader::nextLine(Row& row) {
+  while (at_ < text_.size()) {
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    const std::string_view line = trimmed(std::string_view(text_).substr(at_, end - at_));
+    at_ = end + 1;
+    ++line_;
+    if (line.empty() || line.front() == '#') continue;
+    row.line = line_;
+    split(line, row.fields);
+    return true;
+  }
+  return false;
+}
+
+bool CsvReader::next(Row& row) {
+  if (!nextLine(row)) return false;
+  if (row.fields.size() == columns_.size()) return true;
+  const std::string sentence = fmt::format("This row has {} fields; the header names {} columns.", row.fields.size(), columns_.size());
+  throw Error(ErrorKind::scene, {{{name_, row.line, 1}, sentence, {}}});
+}
 
 }  // namespace tsubu::io

@@ -1,5 +1,5 @@
 #pragma once
-// Tables of numbers in text files.
+// Tables in text files, row by row: a table of ten million grains need not be in memory twice.
 
 #include <string>
 #include <string_view>
@@ -7,21 +7,36 @@
 
 namespace tsubu::io {
 
-/// A comma-separated file with a line of column names on top. Lines that are empty or begin with # do not count.
-struct CsvTable {
+/// A comma-separated table with a line of column names on top. Lines that are empty or begin with # do not count; blanks and quotes
+/// around fields are taken off (there is no way to quote a comma).
+class CsvReader {
+ public:
   struct Row {
-    int line = 0;                     ///< in the file, from 1: for messages
-    std::vector<std::string> fields;  ///< as many as there are columns, blanks trimmed
+    int line = 0;                          ///< in the file, from 1: for messages
+    std::vector<std::string_view> fields;  ///< as many as there are columns; valid as long as the reader
   };
-  std::string file;
-  std::vector<std::string> columns;
-  std::vector<Row> rows;
-};
 
-/// Reads a file. Throws Error(files) when it cannot be read, Error(scene) with file and line when a row has not as many fields as the
-/// header.
-CsvTable readCsv(const std::string& path);
-/// The same from a text; `name` stands for the file in messages.
-CsvTable parseCsv(std::string_view text, const std::string& name);
+  /// Throws Error(files) when the file cannot be read.
+  static CsvReader fromFile(const std::string& path);
+  /// `name` stands for the file in messages.
+  CsvReader(std::string text, std::string name);
+  CsvReader(const CsvReader&) = delete;
+  CsvReader& operator=(const CsvReader&) = delete;
+
+  const std::string& name() const { return name_; }
+  /// Empty when the file has no line of names.
+  const std::vector<std::string>& columns() const { return columns_; }
+
+  /// Puts the next row into `row`, or returns false. Throws Error(scene) with file and line when it has not as many fields as columns.
+  bool next(Row& row);
+
+ private:
+  bool nextLine(Row& row);
+
+  std::string text_, name_;
+  std::size_t at_ = 0;
+  int line_ = 0;
+  std::vector<std::string> columns_;
+};
 
 }  // namespace tsubu::io

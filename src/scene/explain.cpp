@@ -24,8 +24,7 @@ std::string list(const std::vector<std::string>& items) {
 }
 
 std::string duration(double seconds) {
-  if (seconds < 1) return "less than a second";
-  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 100) return fmt::format("{:.0f} s", std::max(1.0, seconds));
   if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
   return fmt::format("{:.1f} h", seconds / 3600);
 }

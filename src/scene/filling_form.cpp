@@ -330,7 +330,7 @@ void FillingForm::others(const Field& field, Entries entries) {
       table_->findQuietly(name)->skip();
       continue;
     }
-    fill(field, *table_->findQuietly(name), [&](Form& form) { entries.describe(form, entries.add(name)); });
+    fill(field, *table_->findQuietly(name), [&, &own = name](Form& form) { entries.describe(form, entries.add(own)); });
   }
 }
 

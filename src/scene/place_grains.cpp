@@ -142,17 +142,17 @@ void Placer::operator()(const Lattice& lattice) {
 // One row of a table of grains.
 class RowReader {
  public:
-  RowReader(const Scene& scene, const io::CsvTable& table) : scene_(scene), table_(table) {
+  RowReader(const Scene& scene, const io::CsvReader& table) : scene_(scene), table_(table) {
     static const std::vector<std::string> known{"x", "y", "z", "radius", "vx", "vy", "vz", "wx", "wy", "wz", "material"};
-    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    for (std::size_t c = 0; c < table.columns().size(); ++c) {
       std::size_t which = 0;
-      while (which < known.size() && known[which] != table.columns[c]) ++which;
+      while (which < known.size() && known[which] != table.columns()[c]) ++which;
       if (which == known.size()) {
-        const auto nearest = nearestName(table.columns[c], known);
-        refuse(1, fmt::format("Unknown column '{}'.", table.columns[c]),
+        const auto nearest = nearestName(table.columns()[c], known);
+        refuse(1, fmt::format("Unknown column '{}'.", table.columns()[c]),
                nearest ? fmt::format("did you mean '{}'?", *nearest) : listNames(known));
       }
-      if (columns_[which] != absent) refuse(1, fmt::format("The column '{}' is there twice.", table.columns[c]));
+      if (columns_[which] != absent) refuse(1, fmt::format("The column '{}' is there twice.", table.columns()[c]));
       columns_[which] = c;
     }
     for (std::size_t which = 0; which < 4; ++which) {
@@ -160,7 +160,7 @@ class RowReader {
     }
   }
 
-  sim::Grain read(const io::CsvTable::Row& row, std::optional<std::uint16_t> material) const {
+  sim::Grain read(const io::CsvReader::Row& row, std::optional<std::uint16_t> material) const {
     sim::Grain grain;
     for (std::size_t k = 0; k < 3; ++k) {
       grain.position[static_cast<int>(k)] = number(row, k);
@@ -177,22 +177,22 @@ class RowReader {
   static constexpr std::size_t absent = static_cast<std::size_t>(-1);
 
   [[noreturn]] void refuse(int line, std::string sentence, std::string hint = {}) const {
-    throw Error(ErrorKind::scene, {{{table_.file, line, 1}, std::move(sentence), std::move(hint)}});
+    throw Error(ErrorKind::scene, {{{table_.name(), line, 1}, std::move(sentence), std::move(hint)}});
   }
 
-  double number(const io::CsvTable::Row& row, std::size_t which) const {
+  double number(const io::CsvReader::Row& row, std::size_t which) const {
     if (columns_[which] == absent) return 0;
-    const std::string& text = row.fields[columns_[which]];
+    const std::string_view text = row.fields[columns_[which]];
     const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
     double value = 0;
     const auto [end, failure] = std::from_chars(begin, text.data() + text.size(), value);
     if (failure == std::errc() && end == text.data() + text.size() && std::isfinite(value)) return value;
-    refuse(row.line, fmt::format("'{}' in column '{}' is not a number.", text, table_.columns[columns_[which]]),
+    refuse(row.line, fmt::format("'{}' in column '{}' is not a number.", text, table_.columns()[columns_[which]]),
            "numbers are SI, without units");
   }
 
-  std::uint16_t materialOf(const io::CsvTable::Row& row, std::optional<std::uint16_t> otherwise) const {
-    const std::string name = columns_[10] == absent ? std::string() : row.fields[columns_[10]];
+  std::uint16_t materialOf(const io::CsvReader::Row& row, std::optional<std::uint16_t> otherwise) const {
+    const std::string name(columns_[10] == absent ? std::string_view() : row.fields[columns_[10]]);
     if (name.empty() && otherwise) return *otherwise;
     const std::size_t index = materialIndex(scene_, name);
     if (index != noMaterial) return static_cast<std::uint16_t>(index);
@@ -205,7 +205,7 @@ class RowReader {
   }
 
   const Scene& scene_;
-  const io::CsvTable& table_;
+  const io::CsvReader& table_;
   std::array<std::size_t, 11> columns_ = [] {
     std::array<std::size_t, 11> all;
     all.fill(absent);
@@ -214,11 +214,12 @@ class RowReader {
 };
 
 void Placer::operator()(const FromFile& from) {
-  const io::CsvTable table = io::readCsv(resolved(scene_, from.file));
+  io::CsvReader table = io::CsvReader::fromFile(resolved(scene_, from.file));
   const RowReader reader(scene_, table);
   std::optional<std::uint16_t> material;
   if (!source_.material.empty()) material = material_;
-  for (const io::CsvTable::Row& row : table.rows) {
+  io::CsvReader::Row row;
+  while (table.next(row)) {
     const sim::Grain read = reader.read(row, material);
     sim::Grain& grain = add(read.position + from.offset, read.radius);
     grain.velocity += read.velocity;

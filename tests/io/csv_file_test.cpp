@@ -8,23 +8,33 @@ namespace tsubu::io {
 namespace {
 
 TEST(CsvFile, HeaderRowsCommentsAndBlanks) {
-  const CsvTable table = parseCsv("\xEF\xBB\xBF# made by hand\n x , y,\"radius\"\r\n\n1, 2 ,3\r\n# end\n4,,6", "t.csv");
-  EXPECT_EQ(table.columns, (std::vector<std::string>{"x", "y", "radius"}));
-  ASSERT_EQ(table.rows.size(), 2u);
-  EXPECT_EQ(table.rows[0].fields, (std::vector<std::string>{"1", "2", "3"}));
-  EXPECT_EQ(table.rows[0].line, 4);
-  EXPECT_EQ(table.rows[1].fields, (std::vector<std::string>{"4", "", "6"}));
-  EXPECT_EQ(table.rows[1].line, 6);
+  CsvReader table("\xEF\xBB\xBF# made by hand\n x , y,\"radius\"\r\n\n1, 2 ,3\r\n# end\n4,,6", "t.csv");
+  EXPECT_EQ(table.columns(), (std::vector<std::string>{"x", "y", "radius"}));
+  CsvReader::Row row;
+  ASSERT_TRUE(table.next(row));
+  EXPECT_EQ(row.fields, (std::vector<std::string_view>{"1", "2", "3"}));
+  EXPECT_EQ(row.line, 4);
+  ASSERT_TRUE(table.next(row));
+  EXPECT_EQ(row.fields, (std::vector<std::string_view>{"4", "", "6"}));
+  EXPECT_EQ(row.line, 6);
+  EXPECT_FALSE(table.next(row));
 }
 
 TEST(CsvFile, EmptyIsEmpty) {
-  EXPECT_TRUE(parseCsv("", "t.csv").columns.empty());
-  EXPECT_TRUE(parseCsv("\n# nothing\n", "t.csv").columns.empty());
+  for (const char* text : {"", "\n# nothing\n", "\n\n"}) {
+    CsvReader table(text, "t.csv");
+    CsvReader::Row row;
+    EXPECT_TRUE(table.columns().empty());
+    EXPECT_FALSE(table.next(row));
+  }
 }
 
 TEST(CsvFile, RowsMustFitTheHeader) {
+  CsvReader table("a,b\n1,2\n1,2,3\n", "t.csv");
+  CsvReader::Row row;
+  EXPECT_TRUE(table.next(row));
   try {
-    parseCsv("a,b\n1,2\n1,2,3\n", "t.csv");
+    table.next(row);
     FAIL();
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), "t.csv:3:1: This row has 3 fields; the header names 2 columns.");
@@ -33,7 +43,7 @@ TEST(CsvFile, RowsMustFitTheHeader) {
 
 TEST(CsvFile, UnreadableFilesAreErrorsOfFiles) {
   try {
-    readCsv("/no/such.csv");
+    CsvReader::fromFile("/no/such.csv");
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::files);
