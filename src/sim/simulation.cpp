@@ -187,7 +187,7 @@ void Simulation::Impl::rebuildLists() {
   }
   grid.build(state.rows, outerSkin);
   pairs.build(state, slabs, grid, innerSkin, newPlace, team);
-  walls.build(state, slabs, outerSkin, newPlace);
+  walls.build(state, slabs, outerSkin, steps > 0 ? model.timeStep : 0.0, newPlace);
   state.reference.resize(state.size());
   for (std::size_t g = 0; g < state.size(); ++g) state.reference[g] = {state.rows[g].x, state.rows[g].y, state.rows[g].z};
   outerTravel = wallTravel = 0;

@@ -49,7 +49,7 @@ bool WallPass::touches(const Vec3& centre, double radius) const {
   return false;
 }
 
-void WallPass::build(const State& state, const Slabs& slabs, double skin, const std::vector<std::int32_t>& newPlace) {
+void WallPass::build(const State& state, const Slabs& slabs, double skin, double dt, const std::vector<std::int32_t>& newPlace) {
   // Contacts in force, by grain in the new order.
   struct Old {
     std::int32_t grain;
@@ -81,13 +81,15 @@ void WallPass::build(const State& state, const Slabs& slabs, double skin, const 
     for (std::int32_t g = slabs.begin(s); g < slabs.end(s); ++g) {
       const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
       for (std::size_t w = 0; w < walls_->size(); ++w) {
-        const Vec3 local = places_[w].pose.toLocal(centreOf(row));
-        (*walls_)[w].surface->candidates(local, row.radius + skin, features);
+        const Pose& pose = places_[w].pose;
+        const Vec3 centre = centreOf(row), local = pose.toLocal(centre);
+        const Vec3 travel = dt * (Vec3(row.vx, row.vy, row.vz) - places_[w].twist.at(centre));
+        (*walls_)[w].surface->candidates(local, row.radius + skin + travel.norm(), features);
         if (features.empty()) continue;
         WallGroup group;
         group.grain = g;
         group.wall = static_cast<std::uint16_t>(w);
-        group.centre = local;
+        group.centre = local - pose.rotation.conjugate() * travel;
         group.first = static_cast<std::int32_t>(slab.candidates.size());
         for (const std::uint32_t feature : features) {
           slab.features.push_back(feature);

@@ -50,8 +50,9 @@ class WallPass {
   double moveTo(double t, double dt);
   const std::vector<WallPlace>& places() const { return places_; }
 
-  /// New candidates for grains in their new order; memory goes along. `newPlace`: old place → new place, −1 for gone.
-  void build(const State& state, const Slabs& slabs, double skin, const std::vector<std::int32_t>& newPlace);
+  /// New candidates for grains in their new order; memory goes along. `newPlace`: old place → new place, −1 for gone. `dt`: of the
+  /// step that has just been made (0: none yet), so that a grain that came from behind a wall is found out.
+  void build(const State& state, const Slabs& slabs, double skin, double dt, const std::vector<std::int32_t>& newPlace);
 
   /// Adds the wall forces on the grains of a slab.
   void evaluateSlab(int slab, const PassContext& context, WallKernel kernel, bool account, Stage& stage, Accounts& accounts);

@@ -1,0 +1,157 @@
+// Who may touch whom, against brute force.
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "sim/neighbours/cell_grid.h"
+#include "sim/neighbours/pair_lists.h"
+#include "sim/neighbours/slabs.h"
+#include "verification/models.h"
+
+namespace tsubu::sim {
+namespace {
+
+enum class Shape { cloud, sheet, line, clusters, point, count };
+
+/// Positions of one kind, radii spread over `ratio` by decades, the whole moved by `offset`.
+std::vector<GrainRow> randomRows(Random& random, Shape shape, int count, double ratio, const Vec3& offset) {
+  std::vector<GrainRow> rows;
+  const double size = 2e-3 * std::cbrt(count) * random.uniform(0.5, 3);
+  for (int n = 0; n < count; ++n) {
+    Vec3 x(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size));
+    if (shape == Shape::sheet) x.y() = 1e-6 * x.y();
+    if (shape == Shape::line) x = Vec3(5 * x.x(), 0, 1e-3 * x.z());
+    if (shape == Shape::clusters) x = 0.1 * x + size * Vec3(n % 3, n % 2, n % 5);
+    if (shape == Shape::point) x = 1e-4 * x;
+    x += offset;
+    const double r = 1e-3 * std::pow(ratio, -random.uniform());
+    rows.push_back({x.x(), x.y(), x.z(), r, 0, 0, 0, 1, 0, 0, 0, 1 / r});
+  }
+  return rows;
+}
+
+double gap(const GrainRow& a, const GrainRow& b) {
+  return Vec3(a.x - b.x, a.y - b.y, a.z - b.z).norm() - a.radius - b.radius;
+}
+
+TEST(CellGrid, FindsAllThatBruteForceFinds) {
+  Random random(21, 1);
+  for (int round = 0; round < 2000; ++round) {
+    const auto shape = static_cast<Shape>(round % static_cast<int>(Shape::count));
+    const double ratio = std::array{1.0, 1.4, 10.0, 100.0}[static_cast<std::size_t>(round / 5 % 4)];
+    const Vec3 offset = round % 7 == 0 ? Vec3(1e6, -1e6, 5e5) : Vec3(Vec3::Zero());
+    const std::vector<GrainRow> rows = randomRows(random, shape, 1 + round % 60, ratio, offset);
+    const double reach = 1e-3 * random.uniform(0, 0.8);
+    CellGrid grid;
+    grid.build(rows, reach);
+    std::vector<std::int32_t> found;
+    for (std::size_t g = 0; g < rows.size(); ++g) {
+      found.clear();
+      grid.near(Vec3(rows[g].x, rows[g].y, rows[g].z), rows[g].radius, static_cast<std::int32_t>(g), true, found);
+      std::sort(found.begin(), found.end());
+      ASSERT_EQ(std::adjacent_find(found.begin(), found.end()), found.end()) << "found twice, round " << round;
+      for (std::size_t o = 0; o < rows.size(); ++o) {
+        if (o == g) continue;
+        const double excess = gap(rows[g], rows[o]) - reach;
+        if (std::abs(excess) < 1e-9) continue;  // as far from the origin as this, positions themselves are rounded
+        ASSERT_EQ(std::binary_search(found.begin(), found.end(), static_cast<std::int32_t>(o)), excess < 0) << "round " << round;
+      }
+    }
+  }
+}
+
+TEST(PairLists, HoldEveryNearPairOnceInOrder) {
+  Random random(21, 2);
+  ThreadTeam team(2);
+  for (int round = 0; round < 1000; ++round) {
+    const auto shape = static_cast<Shape>(round % static_cast<int>(Shape::count));
+    const double ratio = std::array{1.0, 3.0, 10.0, 100.0}[static_cast<std::size_t>(round / 5 % 4)];
+    State state;
+    state.rows = randomRows(random, shape, 1 + round % 90, ratio, round % 7 == 0 ? Vec3(1e6, 0, -1e6) : Vec3(Vec3::Zero()));
+    const double skin = 1e-3 * random.uniform(0.01, 0.5), inner = 0.4 * skin;
+    std::vector<std::int32_t> order;
+    const Slabs slabs = sortIntoSlabs(state.rows, 2e-3 + skin, order);
+    std::vector<GrainRow> sorted;
+    for (const std::int32_t old : order) sorted.push_back(state.rows[static_cast<std::size_t>(old)]);
+    state.rows = sorted;
+    std::vector<std::int32_t> place(order.size());
+    std::iota(place.begin(), place.end(), 0);
+    CellGrid grid;
+    grid.build(state.rows, skin);
+    PairLists pairs(3);
+    pairs.build(state, slabs, grid, inner, place, team);
+
+    std::set<std::pair<std::int32_t, std::int32_t>> listed, listedInner;
+    ASSERT_EQ(slabs.begin(0), 0);
+    ASSERT_EQ(slabs.end(slabs.count() - 1), static_cast<std::int32_t>(sorted.size()));
+    for (int s = 0; s < slabs.count(); ++s) {
+      const SlabPairs& slab = pairs.slabs()[static_cast<std::size_t>(s)];
+      for (std::size_t k = 0; k < slab.outerI.size(); ++k) {
+        const auto pair = std::pair(slab.outerI[k], slab.outerJ[k]);
+        ASSERT_LT(pair.first, pair.second);
+        ASSERT_TRUE(pair.first >= slabs.begin(s) && pair.first < slabs.end(s));
+        ASSERT_TRUE(pair.second < slabs.end(std::min(s + 1, slabs.count() - 1))) << "a slab writes to itself and the next";
+        ASSERT_TRUE(listed.insert(pair).second);
+        if (k > 0) {
+          ASSERT_LT(std::pair(slab.outerI[k - 1], slab.outerJ[k - 1]), pair);
+        }
+      }
+      for (std::size_t k = 0; k < slab.i.size(); ++k) listedInner.insert({slab.i[k], slab.j[k]});
+    }
+    for (std::size_t a = 0; a < sorted.size(); ++a) {
+      for (std::size_t b = a + 1; b < sorted.size(); ++b) {
+        const double g = gap(sorted[a], sorted[b]);
+        const auto pair = std::pair(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b));
+        if (std::abs(g - skin) > 1e-9) {
+          ASSERT_EQ(listed.contains(pair), g < skin) << "round " << round;
+        }
+        if (std::abs(g - inner) > 1e-9) {
+          ASSERT_EQ(listedInner.contains(pair), g < inner) << "round " << round;
+        }
+      }
+    }
+  }
+}
+
+// Over a run in which grains fly about, what the simulation says is touching is what brute force says, at every look.
+TEST(Lists, NeverMissAContactWhileGrainsMove) {
+  for (const double ratio : {1.0, 10.0, 100.0}) {
+    for (const double skin : {0.0, 1e-5, 3e-3}) {
+      test::Scenario s;
+      s.pair[Property::normalStiffness] = 2000;
+      s.pair[Property::restitution] = 0.9;
+      s.model.skin = skin;
+      s.model.watch.stop = false;
+      Random random(33, static_cast<std::uint64_t>(ratio));
+      for (const GrainRow& row : randomRows(random, Shape::cloud, 150, ratio, Vec3::Zero())) {
+        const Vec3 x(row.x, row.y, row.z), v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        s.grain(2500 * 4.2 * std::pow(row.radius, 3) + 1e-8, row.radius, x, 0.5 * v - 20 * x);
+      }
+      Simulation sim = s.start(2e-6);
+      for (int n = 0; n < 150; ++n) {
+        sim.advance(20);
+        const Snapshot now = test::look(sim);
+        std::uint64_t touching = 0;
+        double deepest = 0;
+        for (std::size_t a = 0; a < now.grains(); ++a) {
+          for (std::size_t b = a + 1; b < now.grains(); ++b) {
+            const double overlap = now.radius[a] + now.radius[b] - (now.position[a] - now.position[b]).norm();
+            if (overlap <= 0) continue;
+            ++touching;
+            deepest = std::max(deepest, overlap / std::min(now.radius[a], now.radius[b]));
+          }
+        }
+        const ContactSummary summary = sim.contacts();
+        ASSERT_EQ(summary.touching, touching) << "ratio " << ratio << ", skin " << skin << ", look " << n;
+        ASSERT_NEAR(summary.deepestOverlap, deepest, 1e-12);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tsubu::sim
