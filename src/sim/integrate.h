@@ -1,12 +1,13 @@
 #pragma once
-// The integrators (docs/physics.md, I1–I4). One pass moves the grains, clears their force rows and finds the fastest.
+// The integrators (docs/physics.md, I1–I3). One pass moves the grains, clears their force rows and finds the fastest.
 //
 //   I1  symplectic Euler   v ← v + a Δt,  x ← x + v Δt;                 contacts see v
 //   I2  velocity Verlet    u ← u + a Δt,  x ← x + u Δt;                 contacts see v = u + ½ a Δt
 //
 // u is the velocity at half steps. The velocity of the same instant as x is u + ½ a Δt with the acceleration of that instant, which
 // is not known before the force that needs it; with the last one the error is of second order in Δt, and the dashpot keeps the order
-// of the scheme (with u alone, as is common, it would be first). Both schemes conserve momentum and, without damping, are symplectic.
+// of the scheme (with u alone, as is common, it would be first). Both schemes conserve momentum; along the normal, without
+// damping, they are symplectic (across it, see T6).
 // Rotation is the same for L = I ω; a sphere's inertia is a number, so that r ω is advanced: d(r ω)/dt = −(5/2) Q/m.
 //   I3  orientation        q ← exp(½ ∫ω dt) q, with ω at half steps summed over `turnEvery` steps. No force reads it: it only shows.
 

@@ -13,7 +13,7 @@
 // The memory is k_t δ_t in N. It is advanced with the slip of a whole step and read at `lead` of a step, so that in velocity Verlet
 // the spring's work over a step is exactly the change of its energy: a sticking contact leaks nothing (docs/physics.md, T5). In
 // symplectic Euler the account takes the spring's mean force over the step, for the same reason.
-//   T6   η_t ≥ k_t·3 (7/2 k_t/m*) Δt³ in velocity Verlet (contact.h, quieting): matters for nearly elastic contacts alone
+//   T6   η_t ≥ k_t (7/2 k_t/m*) Δt³ in velocity Verlet (contact.h, quieting): matters for nearly elastic contacts alone
 //
 // Cutting back is passive: what the spring loses beyond its work is friction, and never less than nothing. Luding (Granular Matter 10
 // (2008) 235) keeps the dashpot whole and gives the spring the rest, limit − η_t v_t; where the dashpot alone exceeds the limit, that

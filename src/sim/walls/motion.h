@@ -9,13 +9,13 @@
 
 namespace tsubu::sim {
 
-/// The rigid velocity field V + Ω × (x − X) of brief equation W.2.
+/// The rigid velocity field V + Ω × (x − X) of equation W2.
 struct Twist {
   Vec3 velocity = Vec3::Zero();         ///< m/s: of the material point at `origin`
   Vec3 angularVelocity = Vec3::Zero();  ///< rad/s
   Vec3 origin = Vec3::Zero();           ///< m: in the world
 
-  /// m/s: of the wall at a point of the world (W.2).
+  /// m/s: of the wall at a point of the world (W2).
   Vec3 at(const Vec3& point) const { return velocity + angularVelocity.cross(point - origin); }
 };
 

@@ -5,12 +5,12 @@
 
 namespace tsubu::sim {
 
-/// The plane normal·x = offset (W.1). Grains live where normal·x > offset.
+/// The plane normal·x = offset (W1). Grains live where normal·x > offset.
 struct Plane {
   Vec3 normal = Vec3::UnitZ();  ///< unit
   double offset = 0;            ///< m
 
-  /// m: positive on the side of the grains (W.1).
+  /// m: positive on the side of the grains (W1).
   double signedDistance(const Vec3& point) const { return normal.dot(point) - offset; }
 };
 
