@@ -112,6 +112,7 @@ void Painter::drawShadowMap(const Frame& frame) {
   gl_.DepthMask(GL_TRUE);
   gl_.DepthFunc(GL_LESS);
   drawShadows(frame, shadowTarget_, shadowSize_, {{0, 0}}, 0);
+  if (side_ == 1) return;  // drafts have hard shadows
   // What may touch a penumbra: everything, widened by the widest of them and by a texel.
   const double margin = 2 * widestPenumbra / shadowSize_ + 2.0 / coarseSize;
   drawShadows(frame, coarseTarget_, coarseSize, {{0, 0}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}, margin);

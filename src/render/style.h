@@ -45,6 +45,7 @@ struct Range {
 // --- picture ------------------------------------------------------------------------------------------------------------
 
 /// How many samples find out what a pixel shows: 1, 4 or 9. Each surface within a pixel is shaded once, however many samples it has.
+/// Drafts have hard shadows.
 enum class Quality { draft, normal, fine };
 inline constexpr std::array<Word<Quality>, 3> qualityWords{
     {{"draft", Quality::draft}, {"normal", Quality::normal}, {"fine", Quality::fine}}};

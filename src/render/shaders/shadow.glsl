@@ -16,34 +16,41 @@ vec2 slopeOf(vec3 normal) {
   return clamp(-along.xy / along.z, -8.0, 8.0);
 }
 
+// The weighted share of a block of 2×2 texels that is open to the sun, and the weight. The depth that the surface has at each texel is
+// compared, for the texels in the order of a gather: (0,1), (1,1), (1,0), (0,0).
+vec2 openShare(vec2 texel, vec2 place, vec2 reach, float depth, vec2 slope, vec2 size) {
+  float corner = depth + dot(slope, (texel - place) / size);
+  vec2 next = slope / size;
+  vec4 own = min(corner + vec4(next.y, next.x + next.y, next.x, 0.0), 1.0);
+  vec4 open = step(own, textureGather(shadowMap, (texel + 1.0) / size));
+  vec2 a = max(1.0 - abs(texel - place) / reach, 0.0), b = max(1.0 - abs(texel + 1.0 - place) / reach, 0.0);
+  vec4 weight = vec4(a.x * b.y, b.x * b.y, b.x * a.y, a.x * a.y);
+  return vec2(dot(open, weight), dot(weight, vec4(1.0)));
+}
+
 // `facing`: whether the surface is turned towards the sun; else nothing need be known. `slope`: of the surface, see slopeOf.
 float sunlight(vec3 point, bool facing, vec2 slope) {
   vec4 p = vec4(point, 1.0);
   vec3 q = vec3(dot(sunX, p), dot(sunY, p), min(dot(sunZ, p), 1.0));  // beyond the map nothing stands in the way
-  bool within = all(greaterThan(q.xy, vec2(0.0))) && all(lessThan(q.xy, vec2(1.0)));
-  vec4 near = textureGather(coarseMap, q.xy);
-  float blocker = min(min(near.x, near.y), min(near.z, near.w));
-  bool shaded = facing && within && blocker < q.z;
-  vec2 reach = clamp(penumbra * (q.z - blocker), narrowest, widest);
+  bool within = facing && all(greaterThan(q.xy, vec2(0.0))) && all(lessThan(q.xy, vec2(1.0)));
   vec2 size = vec2(textureSize(shadowMap, 0));
   vec2 place = q.xy * size - 0.5;
+#if SIDE == 1
+  // A draft: the four nearest texels, and shadows as hard as they are.
+  vec2 share = openShare(floor(place), place, vec2(1.0), q.z, slope, size);
+  return within ? share.x / share.y : 1.0;
+#else
+  vec4 near = textureGather(coarseMap, q.xy);
+  float blocker = min(min(near.x, near.y), min(near.z, near.w));
+  bool shaded = within && blocker < q.z;
+  vec2 reach = clamp(penumbra * (q.z - blocker), narrowest, widest);
   vec2 stride = max(ceil(2.0 * reach / taps), 2.0);
   vec2 blocks = shaded ? ceil(2.0 * reach / stride) : vec2(0.0);
   vec2 first = floor(place) - floor(0.5 * stride * (blocks - 1.0) + 0.5);
-  float lit = 0.0, all = 0.0;
+  vec2 share = vec2(0.0);
   for (float j = 0.0; j < blocks.y; ++j) {
-    for (float i = 0.0; i < blocks.x; ++i) {
-      vec2 texel = first + stride * vec2(i, j);
-      // The depth that the surface has at the texels (0,1), (1,1), (1,0), (0,0) of the block.
-      float corner = q.z + dot(slope, (texel - place) / size);
-      vec2 next = slope / size;
-      vec4 own = min(corner + vec4(next.y, next.x + next.y, next.x, 0.0), 1.0);
-      vec4 open = step(own, textureGather(shadowMap, (texel + 1.0) / size));
-      vec2 a = max(1.0 - abs(texel - place) / reach, 0.0), b = max(1.0 - abs(texel + 1.0 - place) / reach, 0.0);
-      vec4 weight = vec4(a.x * b.y, b.x * b.y, b.x * a.y, a.x * a.y);
-      lit += dot(open, weight);
-      all += dot(weight, vec4(1.0));
-    }
+    for (float i = 0.0; i < blocks.x; ++i) share += openShare(first + stride * vec2(i, j), place, reach, q.z, slope, size);
   }
-  return all > 0.0 ? lit / all : 1.0;
+  return share.y > 0.0 ? share.x / share.y : 1.0;
+#endif
 }
