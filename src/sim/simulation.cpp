@@ -61,6 +61,7 @@ void Simulation::Impl::prepareLaws() {
 }
 
 void Simulation::Impl::prepareState() {
+  if (model.counters.size() > 32) throw Error(ErrorKind::scene, fmt::format("There are {} counters, more than 32.", model.counters.size()));
   state.verlet = model.integrator == Integrator::velocityVerlet;
   state.turns = lawTraits(law).turns;
   for (const Grain& grain : model.grains) addGrain(grain);

@@ -209,6 +209,13 @@ TEST(Counters, CountNetCrossings) {
   }
 }
 
+TEST(Counters, MoreThanThirtyTwoAreRefused) {
+  Scenario s = smooth();
+  s.model.counters.resize(33, {"gate", Vec3::Zero(), Vec3::UnitZ(), 1.0});
+  s.grain(1e-5, 1e-3, Vec3::Zero());
+  EXPECT_THROW(s.start(1e-5), Error);
+}
+
 // A ball that bounces on one plane crosses another again and again: net, it is above or below.
 TEST(Counters, ForthAndBackCountsNothing) {
   Scenario s = smooth();
