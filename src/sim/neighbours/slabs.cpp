@@ -42,8 +42,10 @@ Slabs sortIntoSlabs(const std::vector<GrainRow>& rows, double reach, std::vector
   int along = 0;
   extent.maxCoeff(&along);
   const int across = (along + 1) % 3, last = (along + 2) % 3;
-  const int count = static_cast<int>(std::clamp(std::floor(extent[along] / reach), 1.0, static_cast<double>(mostSlabs)));
-  const double thickness = std::max(extent[along] / count, reach);
+  // A little more than the reach: rounding must not put a pair into slabs that are not neighbours.
+  const double least = reach * (1 + 1e-9);
+  const int count = static_cast<int>(std::clamp(std::floor(extent[along] / least), 1.0, static_cast<double>(mostSlabs)));
+  const double thickness = std::max(extent[along] / count, least);
   const double cell = std::max({reach, extent[across] / mostCells, extent[last] / mostCells});
 
   std::vector<Keyed> items(rows.size());
