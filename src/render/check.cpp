@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,8 @@
 namespace tsubu::render {
 
 namespace {
+
+constexpr int mostSamples = 16384;  // along a side: the largest texture of llvmpipe
 
 class Complaints {
  public:
@@ -22,7 +25,8 @@ class Complaints {
   }
 
   void opening(double fovY) {
-    require(fovY > 0.001 && fovY < 0.99 * std::numbers::pi, fmt::format("The camera's opening angle is {} rad, but must be between 0 and π.", fovY));
+    const bool good = fovY > 0.001 && fovY < 0.99 * std::numbers::pi;
+    require(good, fmt::format("The camera's opening angle is {} rad, but must be between 0 and π.", fovY));
   }
 
   void place(const Vec3& eye, const Vec3& target, const Vec3& up) {
@@ -77,6 +81,9 @@ void checkStyle(const Style& style) {
   Complaints complaints;
   complaints.range("picture's width", style.picture.width, 16, 8192);
   complaints.range("picture's height", style.picture.height, 16, 8192);
+  const int samples = samplesAlongSide(style.picture.quality) * std::max(style.picture.width, style.picture.height);
+  complaints.require(samples <= mostSamples, fmt::format("The picture needs {} samples along a side at this quality, but the most is {}.",
+                                                         samples, mostSamples));
   complaints.direction("direction of the light", style.light.from);
   complaints.range("strength of the sun", style.light.sun, 0, 4);
   complaints.range("strength of the sky", style.light.sky, 0, 4);

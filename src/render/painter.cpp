@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/error.h"
 #include "render/colour_map.h"
 
 namespace tsubu::render {
@@ -262,6 +263,10 @@ Image Painter::read() const {
   std::vector<std::uint8_t> rgba(image.rgb.size() / 3 * 4);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, coloursTarget_.name());
   gl_.ReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR) {
+    throw Error(ErrorKind::simulation, fmt::format("The driver failed to draw a picture (OpenGL error {:#x}).", error),
+                error == GL_OUT_OF_MEMORY ? "there is not enough memory for pictures of this size and quality" : "");
+  }
   for (std::size_t from = 0, to = 0; from < rgba.size(); from += 4, to += 3) {
     std::copy_n(&rgba[from], 3, &image.rgb[to]);
   }

@@ -13,19 +13,6 @@
 
 namespace tsubu::render {
 
-namespace {
-
-int samplesAlongSide(Quality quality) {
-  switch (quality) {
-    case Quality::draft: return 1;
-    case Quality::fine: return 3;
-    case Quality::normal: break;
-  }
-  return 2;
-}
-
-}  // namespace
-
 class Renderer::Impl {
  public:
   Impl(Style style, std::vector<VisibleWall> walls, const Box& bounds) : style_(std::move(style)), bounds_(bounds) {

@@ -29,6 +29,15 @@ std::optional<Colour> parseColour(std::string_view text) {
   return Colour{channel(0), channel(1), channel(2)};
 }
 
+int samplesAlongSide(Quality quality) {
+  switch (quality) {
+    case Quality::draft: return 1;
+    case Quality::fine: return 3;
+    case Quality::normal: break;
+  }
+  return 2;
+}
+
 std::string toString(Colour colour) { return fmt::format("#{:02x}{:02x}{:02x}", colour.red, colour.green, colour.blue); }
 
 }  // namespace tsubu::render

@@ -50,6 +50,9 @@ enum class Quality { draft, normal, fine };
 inline constexpr std::array<Word<Quality>, 3> qualityWords{
     {{"draft", Quality::draft}, {"normal", Quality::normal}, {"fine", Quality::fine}}};
 
+/// 1, 2 or 3 samples along each side of a pixel.
+int samplesAlongSide(Quality quality);
+
 struct Picture {
   int width = 1280, height = 720;  ///< pixels, 16 to 8192 each; films want them even
   Quality quality = Quality::normal;

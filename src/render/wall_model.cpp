@@ -84,7 +84,8 @@ void smoothNormals(const Welded& mesh, std::vector<WallModel::Triangle>& triangl
     for (const int v : mesh.triangles[t]) around[static_cast<std::size_t>(v)].push_back(t);
   }
   const auto angleAt = [&](std::size_t t, int vertex) {
-    const auto c = static_cast<std::size_t>(std::find(mesh.triangles[t].begin(), mesh.triangles[t].end(), vertex) - mesh.triangles[t].begin());
+    const Indices& corners = mesh.triangles[t];
+    const auto c = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
     const auto& p = triangles[t].corners;
     const Vec3 a = (p[(c + 1) % 3] - p[c]).normalized(), b = (p[(c + 2) % 3] - p[c]).normalized();
     return std::acos(std::clamp(a.dot(b), -1.0, 1.0));

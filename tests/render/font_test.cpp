@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <set>
 #include <string>
 
@@ -42,7 +43,10 @@ TEST(Font, HasAllOfAsciiAndItsStrokesAreWellFormed) {
       }
       k += glyph.strokes[k] == '~';
       ASSERT_LT(k + 1, glyph.strokes.size()) << static_cast<char>(code);
-      for (int c = 0; c < 2; ++c, ++k) ASSERT_TRUE(std::isdigit(glyph.strokes[k]) || std::islower(glyph.strokes[k])) << static_cast<char>(code);
+      for (int c = 0; c < 2; ++c, ++k) {
+        const auto digit = static_cast<unsigned char>(glyph.strokes[k]);
+        ASSERT_TRUE(std::isdigit(digit) || std::islower(digit)) << static_cast<char>(code);
+      }
     }
   }
   for (const char32_t code : {U'\u00b5', U'\u00b0', U'\u00d7', U'\u00b2'}) EXPECT_EQ(glyphOf(code).code, code);

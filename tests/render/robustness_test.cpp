@@ -140,6 +140,12 @@ TEST(Robustness, StylesThatCannotBeDrawnAreRefusedWithAllTheirFaults) {
   }
 }
 
+TEST(Robustness, PicturesLargerThanTheDriverCanHoldAreRefused) {
+  Style style;
+  style.picture = {8192, 16, Quality::fine};
+  EXPECT_THROW(Renderer(style, {}), Error);
+}
+
 TEST(Robustness, ColoursThatTheSnapshotCannotShowAreRefused) {
   Style style = plainStyle();
   style.grains.by = ColourBy::force;

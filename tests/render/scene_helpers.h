@@ -6,7 +6,8 @@
 
 namespace tsubu::render {
 
-inline void addGrain(Snapshot& snapshot, const Vec3& position, double radius, int material = 0, const Quat& orientation = Quat::Identity()) {
+inline void addGrain(Snapshot& snapshot, const Vec3& position, double radius, int material = 0,
+                     const Quat& orientation = Quat::Identity()) {
   snapshot.id.push_back(static_cast<std::uint32_t>(snapshot.id.size()));
   snapshot.material.push_back(static_cast<std::uint16_t>(material));
   snapshot.radius.push_back(radius);
@@ -45,7 +46,8 @@ inline TriangleMesh quadMesh(const Vec3& a, const Vec3& b, const Vec3& c, const 
 inline TriangleMesh cubeMesh(double half) {
   TriangleMesh mesh;
   for (int k = 0; k < 8; ++k) mesh.vertices.push_back(half * Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
-  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   return mesh;
 }
 

@@ -47,7 +47,9 @@ TEST(View, AnAutomaticCameraHoldsTheBoundsWithinItsMargin) {
         camera.azimuth = azimuth;
         const View view = viewAt(camera, 0, aspect, box);
         double reach = 0;
-        for (int k = 0; k < 8; ++k) reach = std::max(reach, onPicture(view, box.corner(static_cast<Box::CornerType>(k))).lpNorm<Eigen::Infinity>());
+        for (int k = 0; k < 8; ++k) {
+          reach = std::max(reach, onPicture(view, box.corner(static_cast<Box::CornerType>(k))).lpNorm<Eigen::Infinity>());
+        }
         EXPECT_NEAR(reach, 1 - 2 * camera.margin, 1e-9) << "all within, and no farther away than needed";
       }
     }
@@ -72,7 +74,8 @@ TEST(View, AnOrbitGoesRoundAtItsAngularVelocity) {
 
 KeyFrameCamera threeFrames() {
   KeyFrameCamera camera;
-  camera.frames = {{0, {0, -10, 0}, {0, 0, 0}, {0, 0, 1}, 0.5}, {1, {5, -8, 2}, {1, 0, 0}, {0, 0, 1}, 0.6}, {3, {10, 0, 5}, {0, 0, 2}, {0, 0, 1}, 0.4}};
+  camera.frames = {{0, {0, -10, 0}, {0, 0, 0}, {0, 0, 1}, 0.5}, {1, {5, -8, 2}, {1, 0, 0}, {0, 0, 1}, 0.6},
+                   {3, {10, 0, 5}, {0, 0, 2}, {0, 0, 1}, 0.4}};
   return camera;
 }
 

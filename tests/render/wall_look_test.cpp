@@ -28,7 +28,8 @@ TEST(WallLook, HiddenIsNotThere) {
 TEST(WallLook, OpaqueHides) { EXPECT_TRUE(isBlue(behindPane(WallStyle::opaque).pixel(80, 60))); }
 
 TEST(WallLook, TranslucentTintsByItsOpacity) {
-  const Image without = behindPane(WallStyle::hidden), thin = behindPane(WallStyle::translucent, 0.1), thick = behindPane(WallStyle::translucent, 0.6);
+  const Image without = behindPane(WallStyle::hidden);
+  const Image thin = behindPane(WallStyle::translucent, 0.1), thick = behindPane(WallStyle::translucent, 0.6);
   const int x = 80, y = 60;
   const double red = without.pixel(x, y)[0];
   // Face on, the pane lets 1 − opacity of the encoded colour through and adds its own, which is blue with a seventh of white.

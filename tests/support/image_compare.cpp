@@ -54,7 +54,9 @@ Plane blurred(const Plane& plane, double sigma) {
 
 /// Wang et al., IEEE Trans. Image Processing 13 (2004) 600: mean over the picture, windows of a Gaussian with sigma 1.5, values 0 to 100.
 double meanSsim(const Plane& a, const Plane& b) {
-  const auto product = [&](const Plane& p, const Plane& q) { return planeOf(a.width, a.height, [&](int x, int y) { return p.at(x, y) * q.at(x, y); }); };
+  const auto product = [&](const Plane& p, const Plane& q) {
+    return planeOf(a.width, a.height, [&](int x, int y) { return p.at(x, y) * q.at(x, y); });
+  };
   const Plane ma = blurred(a, 1.5), mb = blurred(b, 1.5);
   const Plane aa = blurred(product(a, a), 1.5), bb = blurred(product(b, b), 1.5), ab = blurred(product(a, b), 1.5);
   const double c1 = 1, c2 = 9;  // (0.01·100)², (0.03·100)²
@@ -91,8 +93,8 @@ Lab labOf(const Image& image) {
   return lab;
 }
 
-/// After Andersson et al., "FLIP: a difference evaluator for alternating images" (2020), in short: the HyAB distance of the blurred colours,
-/// raised to 0.7 and scaled so that green against blue is 1, made larger where an edge or a point appears in only one of the pictures.
+/// After Andersson et al., "FLIP: a difference evaluator for alternating images" (2020), in short: the HyAB distance of the blurred
+/// colours, raised to 0.7 and scaled so that green against blue is 1, made larger where an edge appears in only one of the pictures.
 /// Simplified: the blurs are Gaussians in L*a*b* instead of fitted contrast sensitivities, and features are Sobel gradients.
 Plane flipOf(const Lab& a, const Lab& b) {
   const int width = a[0].width, height = a[0].height;
@@ -105,7 +107,8 @@ Plane flipOf(const Lab& a, const Lab& b) {
   };
   const double largest = std::pow(308.0, 0.7);  // HyAB distance of pure green and pure blue
   return planeOf(width, height, [&](int x, int y) {
-    const double hyab = std::abs(ba[0].at(x, y) - bb[0].at(x, y)) + std::hypot(ba[1].at(x, y) - bb[1].at(x, y), ba[2].at(x, y) - bb[2].at(x, y));
+    const auto apart = [&](std::size_t k) { return ba[k].at(x, y) - bb[k].at(x, y); };
+    const double hyab = std::abs(apart(0)) + std::hypot(apart(1), apart(2));
     const double colour = std::min(1.0, std::pow(hyab, 0.7) / largest);
     const double feature = std::sqrt(std::min(1.0, std::abs(edge(a[0], x, y) - edge(b[0], x, y))));
     return colour > 0 ? std::pow(colour, 1 - feature) : 0;
@@ -178,7 +181,8 @@ Image differencePicture(const Image& expected, const Image& actual) {
       const std::uint8_t* e = expected.pixel(x, y);
       const int apart = levelsApart(e, actual.pixel(x, y));
       const auto grey = static_cast<std::uint8_t>((e[0] + e[1] + e[2]) / 12);
-      const auto glow = static_cast<std::uint8_t>(std::min(255, 120 + 3 * apart)), rest = static_cast<std::uint8_t>(std::min(255, 4 * apart));
+      const auto glow = static_cast<std::uint8_t>(std::min(255, 120 + 3 * apart));
+      const auto rest = static_cast<std::uint8_t>(std::min(255, 4 * apart));
       std::uint8_t* p = picture.pixel(x, y);
       p[0] = apart ? glow : grey, p[1] = apart ? rest : grey, p[2] = apart ? rest : grey;
     }

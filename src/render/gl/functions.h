@@ -33,7 +33,6 @@
   X(DRAWARRAYS, DrawArrays) \
   X(DRAWELEMENTS, DrawElements) \
   X(ENABLE, Enable) \
-  X(FINISH, Finish) \
   X(GETERROR, GetError) \
   X(GETINTEGERV, GetIntegerv) \
   X(GETPROGRAMINFOLOG, GetProgramInfoLog) \

@@ -1,5 +1,5 @@
-// Constants of the build: SIDE, samples along the side of a pixel; SHOWS, what the pixels show that this is for: 0 nothing, 1 walls, 2 grains
-// and anything else (see classify.frag).
+// Constants of the build: SIDE, samples along the side of a pixel; SHOWS, what the pixels show that this is for: 0 nothing, 1 walls,
+// 2 grains and anything else (see classify.frag).
 // From names to light: each surface that has a sample in the pixel is shaded once, where the mean of its samples lies, and counts by the
 // number of its samples.
 #include "rays.glsl"

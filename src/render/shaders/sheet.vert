@@ -1,5 +1,6 @@
 // Translucent faces and fine lines, one stream from back to front.
-uniform samplerBuffer sheets;  // three texels a vertex: clip position; normal and 0, or distance across, half width and 1; colour and opacity
+// Three texels a vertex: clip position; normal and 0, or distance across, half width, 0 and 1; colour and opacity.
+uniform samplerBuffer sheets;
 
 out vec4 shape;
 out vec4 paint;
