@@ -15,15 +15,29 @@ LawTraits lawTraits(std::size_t law) {
   return visitLaw(law, traits);
 }
 
+namespace {
+
+struct MaterialUse {
+  std::vector<char> ofGrains, ofWalls;
+};
+
+MaterialUse useOfMaterials(const Model& model) {
+  MaterialUse use{std::vector<char>(model.materials.size(), 0), std::vector<char>(model.materials.size(), 0)};
+  for (const Grain& grain : model.grains) use.ofGrains[grain.material] = 1;
+  for (const Stream& stream : model.streams) use.ofGrains[stream.material] = 1;
+  for (const Wall& wall : model.walls) use.ofWalls[wall.material] = 1;
+  return use;
+}
+
+}  // namespace
+
 std::vector<char> pairsThatMeet(const Model& model) {
   const std::size_t n = model.materials.size();
-  std::vector<char> ofGrains(n, 0), ofWalls(n, 0), meet(n * n, 0);
-  for (const Grain& grain : model.grains) ofGrains[grain.material] = 1;
-  for (const Stream& stream : model.streams) ofGrains[stream.material] = 1;
-  for (const Wall& wall : model.walls) ofWalls[wall.material] = 1;
+  const MaterialUse use = useOfMaterials(model);
+  std::vector<char> meet(n * n, 0);
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = 0; b < n; ++b)
-      if (ofGrains[a] && (ofGrains[b] || ofWalls[b])) meet[a * n + b] = meet[b * n + a] = 1;
+      if (use.ofGrains[a] && (use.ofGrains[b] || use.ofWalls[b])) meet[a * n + b] = meet[b * n + a] = 1;
   return meet;
 }
 
@@ -68,16 +82,21 @@ std::vector<unsigned char> preparePairs(const Model& model, std::size_t law) {
   return visitLaw(law, prepare);
 }
 
-bool allPairsAlike(const Model& model, std::vector<unsigned char>& pairConstants) {
-  const std::vector<char> meet = pairsThatMeet(model);
-  const auto first = std::find(meet.begin(), meet.end(), 1);
-  if (first == meet.end()) return true;
-  const std::size_t size = pairConstants.size() / meet.size();
-  const unsigned char* const alike = pairConstants.data() + static_cast<std::size_t>(first - meet.begin()) * size;
-  for (std::size_t pair = 0; pair < meet.size(); ++pair)
-    if (meet[pair] && std::memcmp(pairConstants.data() + pair * size, alike, size) != 0) return false;
-  std::memmove(pairConstants.data(), alike, size);
-  return true;
+PairClasses classesOfPairs(const Model& model, const std::vector<unsigned char>& pairConstants) {
+  const MaterialUse use = useOfMaterials(model);
+  const std::size_t n = model.materials.size(), size = pairConstants.size() / std::max<std::size_t>(1, n * n);
+  const auto classOf = [&](const std::vector<char>& partners) {
+    PairClass found{true, 0};
+    bool any = false;
+    for (std::size_t pair = 0; pair < n * n; ++pair) {
+      if (!use.ofGrains[pair / n] || !partners[pair % n]) continue;
+      if (!any) found.first = pair;
+      any = true;
+      found.alike = found.alike && std::memcmp(pairConstants.data() + pair * size, pairConstants.data() + found.first * size, size) == 0;
+    }
+    return found;
+  };
+  return {classOf(use.ofGrains), classOf(use.ofWalls)};
 }
 
 std::array<ContactMode, 3> contactModes(const Model& model, std::size_t law, std::size_t a, std::size_t b, double inverseMass) {

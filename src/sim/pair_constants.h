@@ -22,9 +22,16 @@ std::vector<char> pairsThatMeet(const Model& model);
 /// Throws Error(scene) that names law, pair and property when a pair that can meet lacks what the law reads.
 std::vector<unsigned char> preparePairs(const Model& model, std::size_t law);
 
-/// Do all pairs that can meet have the same constants (materials that differ in density or colour only)? They are then in the first row
-/// of `pairConstants` too, and kernels need not look them up.
-bool allPairsAlike(const Model& model, std::vector<unsigned char>& pairConstants);
+/// One kind of contacts, between grains or with walls: when all its pairs have the same constants (materials that differ in density or
+/// colour only), kernels need not look them up.
+struct PairClass {
+  bool alike;
+  std::size_t first;  ///< of the pairs that can meet, as a place in the table
+};
+struct PairClasses {
+  PairClass grains, walls;
+};
+PairClasses classesOfPairs(const Model& model, const std::vector<unsigned char>& pairConstants);
 
 /// How one contact of a pair of materials can swing: along the normal, across it, rolling. `inverseMass`: 1/m_a + 1/m_b, 1/kg.
 std::array<ContactMode, 3> contactModes(const Model& model, std::size_t law, std::size_t a, std::size_t b, double inverseMass);

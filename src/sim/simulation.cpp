@@ -43,7 +43,7 @@ Simulation::Impl::Impl(Model given, int threads)
 
 void Simulation::Impl::prepareLaws() {
   pairConstants = preparePairs(model, law);
-  oneClass = allPairsAlike(model, pairConstants);
+  classes = classesOfPairs(model, pairConstants);
   lead = model.integrator == Integrator::velocityVerlet ? 0.5 : 1.0;
   if (!(model.timeStep > 0)) throw Error(ErrorKind::scene, "The time step must be positive.");
   for (const Wall& wall : model.walls) {
@@ -72,9 +72,10 @@ void Simulation::Impl::prepareState() {
   chooseDomain();
 }
 
-PassContext Simulation::Impl::context() {
-  return {state.rows.data(),    state.forces.data(), state.material.data(), model.materials.size(),
-          pairConstants.data(), {model.timeStep, lead}};
+PassContext Simulation::Impl::context(PairClass pairClass) {
+  const std::size_t size = pairConstants.size() / std::max<std::size_t>(1, model.materials.size() * model.materials.size());
+  const unsigned char* const constants = pairConstants.data() + (pairClass.alike ? pairClass.first * size : 0);
+  return {state.rows.data(), state.forces.data(), state.material.data(), model.materials.size(), constants, {model.timeStep, lead}};
 }
 
 void Simulation::Impl::step() {
@@ -89,10 +90,9 @@ void Simulation::Impl::computeForces() {
   refreshLists();
 
   accountsKnown = model.ledger || steps % watchEvery == 0;
-  const PassKind kind{oneClass, accountsKnown};
-  const PairKernel pairKernel = kernels().pairs(law, kind);
-  const WallKernel wallKernel = kernels().walls(law, kind);
-  const PassContext world = context();
+  const PairKernel pairKernel = kernels().pairs(law, {classes.grains.alike, accountsKnown});
+  const WallKernel wallKernel = kernels().walls(law, {classes.walls.alike, accountsKnown});
+  const PassContext grainsWorld = context(classes.grains), wallsWorld = context(classes.walls);
   last.assign(static_cast<std::size_t>(slabs.count()), Accounts{});
   for (int parity = 0; parity < 2; ++parity) {
     team.run((slabs.count() + 1 - parity) / 2, [&](int task, int thread) {
@@ -100,9 +100,9 @@ void Simulation::Impl::computeForces() {
       const auto s = static_cast<std::size_t>(slab);
       SlabPairs& list = pairs.slabs()[s];
       Stage& stage = stages[static_cast<std::size_t>(thread)];
-      pairKernel(world, {list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.data(), list.stride}, stage,
+      pairKernel(grainsWorld, {list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.data(), list.stride}, stage,
                  last[s]);
-      walls.evaluateSlab(slab, world, wallKernel, accountsKnown, stage, last[s]);
+      walls.evaluateSlab(slab, wallsWorld, wallKernel, accountsKnown, stage, last[s]);
     });
   }
   if (model.ledger)

@@ -11,6 +11,7 @@
 #include "sim/neighbours/cell_grid.h"
 #include "sim/neighbours/pair_lists.h"
 #include "sim/neighbours/slabs.h"
+#include "sim/pair_constants.h"
 #include "sim/simulation.h"
 #include "sim/state.h"
 #include "sim/wall_pass.h"
@@ -42,7 +43,7 @@ class Simulation::Impl {
   std::size_t law = 0;
   int stateSize = 0;
   std::vector<unsigned char> pairConstants;  ///< Law::Pair[materials²]
-  bool oneClass = false;
+  PairClasses classes{};
   double lead = 1;
 
   Slabs slabs;
@@ -88,7 +89,7 @@ class Simulation::Impl {
   void refreshLists();
   void rebuildLists();
   bool outerListsHold();
-  PassContext context();
+  PassContext context(PairClass pairClass);
   void move();
 
   void watchOverlap();
