@@ -6,7 +6,7 @@ Prints one line for each violation and exits with 1 when there is any. What is c
   * every third-party header is used in its one home, and one without a home is refused
   * headers begin with #pragma once, an implementation includes its own header first, and no include leads nowhere
   * libraries neither print nor exit: only the application does
-  * no file of the project names a directory of somebody's machine
+  * no file of the project names a directory of somebody's machine, and a file that is named (docs/physics.md) is there
 """
 import re
 import sys
@@ -44,6 +44,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 CODE_NOISE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'', re.S)
 PRINTS_OR_EXITS = re.compile(
     r"\b(?:std::(?:cout|cerr|clog|exit|quick_exit|abort|terminate|puts)|fmt::print|(?:f|std::)?printf|exit|abort)\b(?=\s*(?:\(|<<|;))")
+NAMED_FILE = re.compile(r"(?<![\w./}$-])(?:src|tests|docs|scripts|scenes|assets|bench|cmake)/[\w./-]*\w\.[a-z]\w*")
 MACHINE_PATH = re.compile(r"(?<![\w.$}])/(?:work|tmp|home|root)/")
 
 SOURCE_SUFFIXES = {".h", ".cpp"}
@@ -119,10 +120,14 @@ def without_noise(text):
     return CODE_NOISE.sub(lambda noise: "\n" * noise[0].count("\n"), text)
 
 
-def check_text(path):
+def check_text(path, root):
     for number, line in enumerate(path.read_text(encoding="utf-8", errors="replace").splitlines(), 1):
         if MACHINE_PATH.search(line):
             yield number, f"names a directory of one machine: {line.strip()}"
+        if "layers" not in path.parts:  # this check and its test talk about files that are not there
+            for name in NAMED_FILE.findall(line):
+                if not (root / name).exists():
+                    yield number, f"there is no {name}"
 
 
 def files_below(place, suffixes):
@@ -143,7 +148,7 @@ def violations(root):
     for place in TEXT_PLACES:
         texts += files_below(root / place, TEXT_SUFFIXES)
     for path in texts:
-        for number, text in check_text(path):
+        for number, text in check_text(path, root):
             yield f"{path.relative_to(root)}:{number}: {text}"
 
 

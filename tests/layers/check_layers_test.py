@@ -85,6 +85,10 @@ class LayerCheck(unittest.TestCase):
     def test_unknown_modules_are_refused(self):
         self.assert_refused("src/utils/new.cpp", "", "is not a module")
 
+    def test_a_file_that_is_named_is_there(self):
+        self.assert_refused("docs/new.md", "See `src/sim/gird.h`.\n", "there is no src/sim/gird.h")
+        self.assertEqual(complaints({"docs/new.md": "See `src/sim/grid.h`. build/src/sim/gird.h and src/sim/ are something else.\n"}), [])
+
     def test_paths_of_one_machine_are_refused(self):
         for name in ["scenes/new.toml", "scripts/new", "docs/new.md", "README.md"]:
             with self.subTest(name=name):
