@@ -68,6 +68,8 @@ Run::Run(const RunOptions& options) : options_(options) {
   fs::create_directories(folder_, failed);
   if (failed) throw Error(ErrorKind::files, fmt::format("Cannot make the folder '{}': {}.", folder_.string(), failed.message()));
 
+  fs::remove(folder_ / "run.json", failed);  // of an earlier run: it would not belong to what is written now
+
   report_.scene = options.scene;
   report_.title = scene.title;
   report_.threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -100,7 +102,11 @@ int Run::go() {
     if (film_) film_->finish();
   } catch (const Error& error) {
     // Keep what there is: the frames that were handed in, the rows, and a report that says why there are no more.
-    if (film_ && error.kind() == ErrorKind::simulation) film_->finish();
+    try {
+      if (film_) film_->finish();
+    } catch (const Error&) {
+      // The film is what failed; `error` says so already.
+    }
     report("failed", error.what());
     throw;
   }
