@@ -4,9 +4,9 @@ name=$(basename "$0")
 
 say() { printf '%s: %s\n' "$name" "$*"; }
 
-# build PRESET TARGET [CMAKE_OPTION…]: configures and builds; silent but for a progress line on a terminal and for errors.
+# build PRESET TARGETS [CMAKE_OPTION…]: configures and builds; silent but for a progress line on a terminal and for errors.
 build() {
-  local preset=$1 target=$2 started=$SECONDS quiet=--quiet
+  local preset=$1 targets=$2 started=$SECONDS quiet=--quiet
   local log=build/$preset-configure.log
   shift 2
   mkdir -p build
@@ -16,6 +16,7 @@ build() {
     return 1
   fi
   [[ -t 1 ]] && quiet=
-  cmake --build --preset "$preset" --parallel "$(nproc)" --target "$target" -- $quiet
+  # shellcheck disable=SC2086  # several targets, and no argument at all for the progress line
+  cmake --build --preset "$preset" --parallel "$(nproc)" --target $targets -- $quiet
   if ((SECONDS > started + 5)); then say "built build/$preset in $((SECONDS - started)) s"; fi
 }
