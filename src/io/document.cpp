@@ -72,7 +72,34 @@ struct Conversion {
 
 namespace {
 
+// Tables inside tables that a key may open. Recursion over the tree, ours and that of toml++, which bounds brackets but not dots, needs
+// a stack for each of them.
+constexpr int deepestKey = 100;
+
+// Throws when a dotted key has too many parts. Reads no more of TOML than that: dots between keys, but not in texts and comments.
+void refuseDeepKeys(std::string_view text, const std::string& name) {
+  int line = 1, dots = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      for (++i; i < text.size() && text[i] != c && text[i] != '\n'; ++i) i += c == '"' && text[i] == '\\';
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size());
+    } else if (c == '.') {
+      ++dots;
+    } else if (std::string_view(",=[]{}").find(c) != std::string_view::npos) {
+      dots = 0;
+    }
+    if (i < text.size() && text[i] == '\n') {
+      ++line;
+      dots = 0;
+    }
+    if (dots > deepestKey) throw Error(ErrorKind::scene, {{{name, line, 1}, "A key here has far too many parts.", {}}});
+  }
+}
+
 toml::table parse(std::string_view text, const std::string& name) {
+  refuseDeepKeys(text, name);
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
@@ -84,7 +111,8 @@ toml::table parse(std::string_view text, const std::string& name) {
 }
 
 // The value of an override: TOML when it is exactly one TOML value, else the text as it stands ("2 mm" need not be quoted twice).
-toml::table parseOverride(std::string_view text) {
+toml::table parseOverride(std::string_view text, const std::string& source) {
+  refuseDeepKeys(text, source);
   try {
     toml::table table = toml::parse(fmt::format("value = {}", text));
     if (table.size() == 1 && table.contains("value")) return table;
@@ -219,7 +247,7 @@ void Document::set(std::string_view assignment) {
     throw Error(ErrorKind::scene, {{{source, 0, 0}, std::move(sentence), std::move(hint)}});
   };
   const auto segments = splitPath(path);
-  if (equals == std::string_view::npos || !segments) {
+  if (equals == std::string_view::npos || !segments || segments->size() > deepestKey) {
     refuse(fmt::format("'{}' is not an override.", assignment), "write --set path.to.key=value");
   }
 
@@ -245,7 +273,7 @@ void Document::set(std::string_view assignment) {
       refuse(fmt::format("'{}' is {}: it has no part '{}'.", place->path_, place->description(), segment));
     }
   }
-  const toml::table parsed = parseOverride(trimmed(assignment.substr(equals + 1)));
+  const toml::table parsed = parseOverride(trimmed(assignment.substr(equals + 1)), source);
   const bool made = place->madeByOverride_;
   *place = Conversion{source, true}.value(*parsed.get("value"), place->path_);
   place->madeByOverride_ = made;

@@ -73,6 +73,22 @@ TEST(Document, SyntaxErrorsHaveAPlace) {
   }
 }
 
+// A hundred thousand tables in each other would end the stack.
+TEST(Document, KeysOfFarTooManyPartsAreRefused) {
+  std::string key = "a";
+  for (int i = 0; i < 100000; ++i) key += ".a";
+  for (const std::string& text : {key + " = 1", "x = 1\n[" + key + "]\n", "x = {" + key + " = 1}"}) EXPECT_THROW(parsed(text), Error);
+  Document document = parsed("a = 1");
+  EXPECT_THROW(document.set(key + "=1"), Error);
+  EXPECT_THROW(document.set("b={" + key + "=1}"), Error);
+}
+
+TEST(Document, DotsThatAreNoKeysDoNotCount) {
+  std::string numbers = "[0.5", dots(500, '.');
+  for (int i = 0; i < 500; ++i) numbers += ", 1.5";
+  EXPECT_NO_THROW(parsed("x = " + numbers + "]\nt = \"\\\"" + dots + "\" # " + dots + "\nu = '" + dots + "'\n"));
+}
+
 TEST(Document, WhatNobodyReadIsAnError) {
   const Document document = parsed("good = 1\ngod = 2\n[a]\nb = 1\nspeeed = 2\n[unread]\nx = 1\n");
   document.root().find("good");
