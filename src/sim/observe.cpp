@@ -293,7 +293,10 @@ std::uint64_t Simulation::Impl::stateHash() {
     if (state.verlet)
       for (const double value : {state.half[g].vx, state.half[g].vy, state.half[g].vz}) hash.add(value);
     if (state.turns)
-      for (const double value : orientationNow(state, g).coeffs()) hash.add(value);
+    {
+      const Quat orientation = orientationNow(state, g);
+      for (const double value : orientation.coeffs()) hash.add(value);
+    }
   }
   hash.add(contactHash());
   return hash.value();

@@ -32,6 +32,7 @@ Simulation::Impl::Impl(Model given, int threads)
       walls(model.walls, stateSize, lawTraits(law).turns, lawTraits(law).rolls),
       stages(static_cast<std::size_t>(threads)) {
   prepareLaws();
+  warnOfThinWalls();
   prepareState();
   if (model.ledger) {
     computeForces();
@@ -57,6 +58,20 @@ void Simulation::Impl::prepareLaws() {
         throw Error(ErrorKind::scene, fmt::format("Wall '{}' is an unbounded plane and cannot tilt.", wall.name),
                     "use a mesh, or turn it about its normal");
     }
+  }
+}
+
+// A grain that may go farther in a step than a wall is thick can be on its other side before it is noticed.
+void Simulation::Impl::warnOfThinWalls() {
+  double largest = 0;
+  for (const Grain& grain : model.grains) largest = std::max(largest, grain.radius);
+  for (const Stream& stream : model.streams) largest = std::max(largest, stream.radii.largest());
+  const double travel = model.watch.travelLimit * largest;
+  for (const Wall& wall : model.walls) {
+    const double thickness = wall.surface->thinnest();
+    if (thickness < travel)
+      warnings.push_back(fmt::format("Wall '{}' is {:.3g} m thick at its thinnest, less than the {:.3g} m that a grain may go in a step.",
+                                     wall.name, thickness, travel));
   }
 }
 

@@ -79,6 +79,7 @@ class Simulation::Impl {
 
  private:
   void prepareLaws();
+  void warnOfThinWalls();
   void prepareState();
   void prepareArrivals();
   void chooseDomain();
