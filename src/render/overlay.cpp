@@ -87,7 +87,7 @@ void drawLegend(Image& image, const Legend& legend, const Pen& pen, const Layout
 
 BarPlace legendBar(int pictureWidth, int pictureHeight) {
   const Layout layout(pictureHeight);
-  const int width = static_cast<int>(std::clamp(0.24 * pictureWidth, 40.0, 0.6 * pictureHeight));
+  const int width = static_cast<int>(std::min(std::max(0.24 * pictureWidth, 40.0), 0.6 * pictureHeight));
   const int height = std::max(4, pictureHeight / 60);
   const int right = static_cast<int>(std::lround(pictureWidth - layout.margin - layout.small));
   const int bottom = static_cast<int>(std::lround(pictureHeight - layout.margin - std::max(2, height / 3) - 1.6 * layout.small));
