@@ -15,15 +15,18 @@ namespace {
 constexpr const char* columns =
     "time_s,grains,contacts,deepest_overlap,inserted,removed,lost,"
     "kinetic_bulk_J,kinetic_fluctuation_J,kinetic_rotation_J,gravitational_J,elastic_normal_J,elastic_tangential_J,elastic_rolling_J,"
-    "dissipated_normal_J,dissipated_tangential_J,dissipated_friction_J,dissipated_rolling_J,work_walls_J,inserted_J,removed_J,"
+    "elastic_bonds_J,potential_fields_J,"
+    "dissipated_normal_J,dissipated_tangential_J,dissipated_friction_J,dissipated_rolling_J,dissipated_bonds_J,dissipated_breakage_J,"
+    "dissipated_drag_J,work_walls_J,work_fields_J,inserted_J,removed_J,"
     "residual_J,residual_fraction,"
     "momentum_x,momentum_y,momentum_z,angular_momentum_bulk_x,angular_momentum_bulk_y,angular_momentum_bulk_z,"
     "angular_momentum_rest_x,angular_momentum_rest_y,angular_momentum_rest_z";
 
 std::string energies(const sim::Ledger& l) {
   const double values[] = {l.kineticBulk, l.kineticFluctuation, l.kineticRotation, l.gravitational, l.elasticNormal, l.elasticTangential,
-                           l.elasticRolling, l.dissipatedNormal, l.dissipatedTangential, l.dissipatedFriction, l.dissipatedRolling,
-                           l.workWalls, l.inserted, l.removed, l.residual(), l.residualFraction(),
+                           l.elasticRolling, l.elasticBonds, l.potentialFields, l.dissipatedNormal, l.dissipatedTangential,
+                           l.dissipatedFriction, l.dissipatedRolling, l.dissipatedBonds, l.dissipatedBreakage, l.dissipatedDrag,
+                           l.workWalls, l.workFields, l.inserted, l.removed, l.residual(), l.residualFraction(),
                            l.momentum.x(), l.momentum.y(), l.momentum.z(),
                            l.angularMomentumBulk.x(), l.angularMomentumBulk.y(), l.angularMomentumBulk.z(),
                            l.angularMomentumRest.x(), l.angularMomentumRest.y(), l.angularMomentumRest.z()};
@@ -32,7 +35,11 @@ std::string energies(const sim::Ledger& l) {
   return text;
 }
 
-std::string noEnergies() { return std::string(25, ','); }
+std::string noEnergies() {
+  std::string text;
+  for (char c : energies({})) if (c == ',') text += c;
+  return text;
+}
 
 }  // namespace
 

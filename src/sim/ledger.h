@@ -19,13 +19,19 @@ struct Ledger {
   double elasticNormal = 0;
   double elasticTangential = 0;
   double elasticRolling = 0;
+  double elasticBonds = 0;
+  double potentialFields = 0;     ///< of grains in each other's field (magnets)
 
   double dissipatedNormal = 0;      ///< by normal dashpots
   double dissipatedTangential = 0;  ///< by tangential dashpots
   double dissipatedFriction = 0;    ///< by sliding, and springs that were let go at the end of a contact
   double dissipatedRolling = 0;     ///< by rolling resistance
+  double dissipatedBonds = 0;       ///< by the damping of bonds
+  double dissipatedBreakage = 0;    ///< what bonds held when they broke
+  double dissipatedDrag = 0;        ///< by drag and global damping
 
   double workWalls = 0;   ///< done by moving walls on the grains
+  double workFields = 0;  ///< done by gravity that changes, flows and magnetic fields
   double inserted = 0;    ///< energy brought by grains that came in
   double removed = 0;     ///< energy taken by grains that were taken out or lost
 
@@ -36,11 +42,15 @@ struct Ledger {
   double initial = 0;  ///< total mechanical energy at the start
 
   double kinetic() const { return kineticBulk + kineticFluctuation + kineticRotation; }
-  double elastic() const { return elasticNormal + elasticTangential + elasticRolling; }
-  double mechanical() const { return kinetic() + gravitational + elastic(); }
-  double dissipated() const { return dissipatedNormal + dissipatedTangential + dissipatedFriction + dissipatedRolling; }
+  double elastic() const { return elasticNormal + elasticTangential + elasticRolling + elasticBonds; }
+  double mechanical() const { return kinetic() + gravitational + elastic() + potentialFields; }
+  double dissipated() const {
+    return dissipatedNormal + dissipatedTangential + dissipatedFriction + dissipatedRolling + dissipatedBonds + dissipatedBreakage +
+           dissipatedDrag;
+  }
+  double work() const { return workWalls + workFields; }
   /// What no account explains.
-  double residual() const { return mechanical() + dissipated() - initial - workWalls - inserted + removed; }
+  double residual() const { return mechanical() + dissipated() - initial - work() - inserted + removed; }
   /// Energy that changed hands so far: the measure of the residual.
   double turnover = 0;
   double residualFraction() const { return turnover > 0 ? std::abs(residual()) / turnover : 0; }

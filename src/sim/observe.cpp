@@ -81,12 +81,13 @@ Ledger Simulation::Impl::ledgerNow() {
   ledger.inserted = insertedEnergy;
   ledger.removed = removedEnergy;
   ledger.initial = initialEnergy;
+  for (const auto& pass : passes) pass->account(world(), ledger);
 
   const Ledger& before = lastLedger;
-  const double motion = ledger.kinetic() + ledger.elastic() - before.kinetic() - before.elastic();
+  const double motion = ledger.mechanical() - ledger.gravitational - (before.mechanical() - before.gravitational);
   const double height = ledger.gravitational - before.gravitational - (ledger.inserted - before.inserted) + (ledger.removed - before.removed);
   turnover += std::max({std::abs(motion), std::abs(height), std::abs(ledger.dissipated() - before.dissipated()),
-                        std::abs(ledger.workWalls - before.workWalls)});
+                        std::abs(ledger.work() - before.work())});
   ledger.turnover = turnover;
   lastLedger = ledger;
   return ledger;
@@ -299,6 +300,7 @@ std::uint64_t Simulation::Impl::stateHash() {
     }
   }
   hash.add(contactHash());
+  for (const auto& pass : passes) hash.add(pass->hash(state));
   return hash.value();
 }
 

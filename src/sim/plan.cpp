@@ -4,6 +4,7 @@
 
 #include "sim/laws/catalogue.h"
 #include "sim/pair_constants.h"
+#include "sim/pass.h"
 #include "sim/simulation.h"
 #include "sim/state.h"
 
@@ -31,6 +32,7 @@ Plan Simulation::plan(const Model& model) {
   plan.passes.push_back("neighbour lists (when grains have moved)");
   plan.passes.push_back("pair contacts");
   if (!model.walls.empty()) plan.passes.push_back("wall contacts");
+  for (const auto& pass : makePasses(model)) plan.passes.push_back(pass->name());
   plan.passes.push_back(verlet ? "integrate: velocity Verlet" : "integrate: symplectic Euler");
 
   plan.bytesPerGrain = sizeof(GrainRow) + sizeof(ForceRow) + (verlet ? sizeof(HalfStepRow) : 0) + (traits.turns ? sizeof(Quat) + sizeof(AngleRow) : 0) +

@@ -30,6 +30,7 @@ Simulation::Impl::Impl(Model given, int threads)
       stateSize(lawTraits(law).stateSize),
       pairs(stateSize),
       walls(model.walls, stateSize, lawTraits(law).turns, lawTraits(law).rolls),
+      passes(makePasses(model)),
       stages(static_cast<std::size_t>(threads)) {
   prepareLaws();
   warnOfThinWalls();
@@ -37,7 +38,7 @@ Simulation::Impl::Impl(Model given, int threads)
   if (model.ledger) {
     computeForces();
     const Ledger start = ledgerNow();
-    initialEnergy = start.mechanical() + start.dissipated() - start.workWalls;
+    initialEnergy = start.mechanical() + start.dissipated() - start.work();
     turnover = 0;
   }
 }
@@ -93,6 +94,8 @@ PassContext Simulation::Impl::context(PairClass pairClass) {
   return {state.rows.data(), state.forces.data(), state.material.data(), model.materials.size(), constants, {model.timeStep, lead}};
 }
 
+World Simulation::Impl::world() { return {model, state, slabs, pairs, team, time(), {model.timeStep, lead}}; }
+
 void Simulation::Impl::step() {
   computeForces();
   move();
@@ -124,6 +127,7 @@ void Simulation::Impl::computeForces() {
     for (const Accounts& accounts : last)
       for (int k = Accounts::normal; k <= Accounts::rolling; ++k)
         total[static_cast<std::size_t>(k)] += accounts.sum(static_cast<Accounts::Kind>(k));
+  for (const auto& pass : passes) pass->addForces(world());
   wallTravel += wallStep;
   if (steps == 0 && state.verlet) startVerlet(state, model.gravity, model.timeStep);
   forcesKnown = true;
@@ -206,6 +210,7 @@ void Simulation::Impl::rebuildLists() {
   walls.build(state, slabs, outerSkin, steps > 0 ? model.timeStep : 0.0, newPlace);
   state.reference.resize(state.size());
   for (std::size_t g = 0; g < state.size(); ++g) state.reference[g] = {state.rows[g].x, state.rows[g].y, state.rows[g].z};
+  for (const auto& pass : passes) pass->regroup(world(), newPlace);
   outerTravel = wallTravel = 0;
   rebuildNeeded = false;
 }

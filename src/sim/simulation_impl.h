@@ -12,6 +12,7 @@
 #include "sim/neighbours/pair_lists.h"
 #include "sim/neighbours/slabs.h"
 #include "sim/pair_constants.h"
+#include "sim/pass.h"
 #include "sim/simulation.h"
 #include "sim/state.h"
 #include "sim/wall_pass.h"
@@ -50,6 +51,7 @@ class Simulation::Impl {
   CellGrid grid;
   PairLists pairs;
   WallPass walls;
+  std::vector<std::unique_ptr<ForcePass>> passes;  ///< beside contacts
   std::vector<Stage> stages;                   ///< one per thread
   std::vector<Accounts> last;                  ///< one per slab: this step's
   std::array<double, Accounts::kinds> total{};  ///< dissipated so far
@@ -91,6 +93,7 @@ class Simulation::Impl {
   void rebuildLists();
   bool outerListsHold();
   PassContext context(PairClass pairClass);
+  World world();
   void move();
 
   void watchOverlap();

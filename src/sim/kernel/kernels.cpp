@@ -10,21 +10,31 @@
 namespace tsubu::sim {
 
 extern const Kernels kernels_portable;
-#ifdef TSUBU_X86
 extern const Kernels kernels_avx2;
 extern const Kernels kernels_avx512;
+
+namespace {
+
+#ifdef TSUBU_KERNEL_avx2
+bool runsAvx2() { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("fma"); }
 #endif
+#ifdef TSUBU_KERNEL_avx512
+bool runsAvx512() {
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
+}
+#endif
+
+}  // namespace
 
 const std::vector<Kernels>& availableKernels() {
   static const std::vector<Kernels> available = [] {
     std::vector<Kernels> list{kernels_portable};
-#ifdef TSUBU_X86
-    __builtin_cpu_init();
-    const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("fma");
-    if (avx2) list.push_back(kernels_avx2);
-    if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd"))
-      list.push_back(kernels_avx512);
+#ifdef TSUBU_KERNEL_avx2
+    if (runsAvx2()) list.push_back(kernels_avx2);
+#endif
+#ifdef TSUBU_KERNEL_avx512
+    if (runsAvx512()) list.push_back(kernels_avx512);
 #endif
     return list;
   }();

@@ -1,0 +1,64 @@
+#pragma once
+// What acts on grains beside their contacts: bonds, drag, magnets, … A scene has a pass for each that it names and pays for no other.
+// A pass keeps its own state by the ids of grains or in their order, adds to the force rows, and answers for its energy.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/thread_team.h"
+#include "sim/laws/contact.h"
+#include "sim/ledger.h"
+#include "sim/model.h"
+#include "sim/neighbours/pair_lists.h"
+#include "sim/neighbours/slabs.h"
+#include "sim/state.h"
+
+namespace tsubu::sim {
+
+/// The running simulation as a pass sees it: positions and velocities of the present instant (docs/physics.md, I1, I2).
+struct World {
+  const Model& model;
+  State& state;
+  const Slabs& slabs;
+  const PairLists& pairs;
+  ThreadTeam& team;
+  double time;  ///< s
+  StepOf step;
+};
+
+/// An energy that grows by a share per step. In velocity Verlet the share of the present step runs half a step beyond the present
+/// instant, as the memory of contacts does.
+struct Tally {
+  double total = 0, last = 0;  ///< J: so far, and in the last step
+
+  void add(double share) {
+    last = share;
+    total += share;
+  }
+  double now(double lead) const { return total - (1 - lead) * last; }
+};
+
+class ForcePass {
+ public:
+  virtual ~ForcePass() = default;
+
+  /// For `tsubu explain`.
+  virtual std::string name() const = 0;
+  /// Grains have come, gone or changed their places, and the lists are new. `newPlace`: old place → new place, −1 for gone (empty at
+  /// the start).
+  virtual void regroup(const World&, const std::vector<std::int32_t>& /*newPlace*/) {}
+  /// Adds to the force rows. The result must not depend on the number of threads: a slab's task writes to the grains of that slab
+  /// alone, or tasks run in two colours as the pair pass does.
+  virtual void addForces(const World& world) = 0;
+  /// Adds what it stores, what it has dissipated and what work it has done, as of the present instant.
+  virtual void account(const World&, Ledger&) const {}
+  /// Fingerprint of its own state, whatever the order of grains in memory.
+  virtual std::uint64_t hash(const State&) const { return 0; }
+};
+
+/// The passes that this model asks for, in the order of the step.
+std::vector<std::unique_ptr<ForcePass>> makePasses(const Model& model);
+
+}  // namespace tsubu::sim
