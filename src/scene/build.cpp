@@ -10,6 +10,8 @@
 #include "scene/pairs.h"
 #include "scene/place_grains.h"
 #include "scene/wall_pictures.h"
+#include "sim/fields/flow.h"
+#include "sim/fields/gravity.h"
 
 namespace tsubu::scene {
 
@@ -125,6 +127,7 @@ sim::Model buildModel(const Scene& scene) {
   model.contact = scene.contact;
   model.integrator = s.integrator;
   model.gravity = s.gravity;
+  model.fields = scene.fields;
   for (const Sink& sink : scene.sinks) model.sinks.push_back({sink.name, sink.region});
   for (const Counter& counter : scene.counters)
     model.counters.push_back({counter.name, counter.point, counter.normal.normalized(), counter.radius});
@@ -158,6 +161,19 @@ render::Style buildStyle(const Scene& scene) {
   return style;
 }
 
+// What a fluid may give to grains within the bounds: all flows but that of a pipe are largest at a corner.
+double flowSpeed(const sim::Model& model, const Box& bounds) {
+  if (!model.fields.drag) return 0;
+  const auto* pipe = std::get_if<sim::PipeFlow>(&model.fields.drag->flow);
+  double most = pipe ? std::abs(pipe->speed) : 0;
+  const sim::FlowField flow(model.fields.drag->flow);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 x = bounds.corner(static_cast<Box::CornerType>(corner));
+    most = std::max(most, sim::norm(flow.at({x.x(), x.y(), x.z()}).velocity));
+  }
+  return most;
+}
+
 // The largest speed to expect: what grains start with or get from falling through the scene, and what moving walls have.
 double expectedSpeed(const sim::Model& model, const Box& bounds, double end) {
   double start = 0, wall = 0;
@@ -167,8 +183,10 @@ double expectedSpeed(const sim::Model& model, const Box& bounds, double end) {
     if (!w.motion.still() && w.surface)
       wall = std::max(wall, w.motion.maxSpeed(w.surface->asPlane() ? bounds : w.surface->bounds(), 0, end));
   }
-  const double drop = model.gravity.cwiseAbs().dot(bounds.sizes());  // |g| × height along gravity
-  return std::max(std::sqrt(start * start + 2 * drop), wall);
+  const double drop = model.fields.gravity.empty()
+                          ? model.gravity.cwiseAbs().dot(bounds.sizes())  // |g| × height along gravity
+                          : sim::strongestGravity(model.gravity, model.fields.gravity) * bounds.sizes().norm();
+  return std::max({std::sqrt(start * start + 2 * drop), wall, flowSpeed(model, bounds)});
 }
 
 std::uint64_t roundUp(double ratio) { return static_cast<std::uint64_t>(std::max(1.0, std::ceil(ratio * (1 - 1e-9)))); }

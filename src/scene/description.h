@@ -241,6 +241,7 @@ struct Scene {
   std::vector<Wall> walls;
   std::vector<Sink> sinks;
   std::vector<Counter> counters;
+  sim::Fields fields;
   Output output;
   render::Picture picture;
   render::Background background;

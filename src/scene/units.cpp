@@ -92,6 +92,7 @@ constexpr NamedDimension named[] = {
     {{{3, 0, 0, 0}}, "a volume", "\"2 L\"", "m^3"},
     {{{2, 1, -2, 0}}, "an energy", "\"2 mJ\"", "J"},
     {{{2, 1, -3, 0}}, "a power", "\"2 W\"", "W"},
+    {{{-1, 1, -1}}, "a viscosity", "\"1 mPa s\"", "Pa s"},
 };
 
 const NamedDimension* find(const Dimension& dimension) {
@@ -286,9 +287,9 @@ std::string exampleOf(const Dimension& dimension) {
 
 std::string unitOf(const Dimension& dimension) {
   if (const NamedDimension* entry = find(dimension)) return std::string(entry->unit);
-  constexpr std::string_view bases[] = {"m", "kg", "s", "rad"};
+  constexpr std::string_view bases[] = {"m", "kg", "s", "rad", "K", "A"};
   std::string text;
-  for (std::size_t k = 0; k < 4; ++k) {
+  for (std::size_t k = 0; k < std::size(bases); ++k) {
     const int power = dimension.exponents[k];
     if (power == 0) continue;
     if (!text.empty()) text += ' ';

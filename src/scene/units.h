@@ -7,10 +7,10 @@
 
 namespace tsubu::scene {
 
-/// Exponents of metre, kilogram, second and radian. The angle counts as a dimension of its own, so that a frequency is not taken for an
+/// Exponents of metre, kilogram, second, radian, kelvin and ampere. The angle counts as a dimension of its own, so that a frequency is not taken for an
 /// angular velocity.
 struct Dimension {
-  std::array<int, 4> exponents{};
+  std::array<int, 6> exponents{};
 
   bool operator==(const Dimension&) const = default;
 };

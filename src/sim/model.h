@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "sim/fields/fields.h"
 #include "sim/insertion/stream.h"
 #include "sim/properties.h"
 #include "sim/walls/motion.h"
@@ -80,7 +81,8 @@ struct Model {
   PairTable pairs;
   ContactChoice contact;
   Integrator integrator = Integrator::velocityVerlet;
-  Vec3 gravity = Vec3::Zero();
+  Vec3 gravity = Vec3::Zero();           ///< m/s²; before any change that `fields` tells of
+  Fields fields;
   std::vector<Grain> grains;
   std::vector<Stream> streams;
   std::vector<Wall> walls;

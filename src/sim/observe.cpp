@@ -28,7 +28,7 @@ std::vector<std::size_t> byId(const State& state) {
 // The velocities that contacts see are those of the instant, and known also when the forces are not.
 double Simulation::Impl::energyOf(std::size_t grain) const {
   const GrainRow& row = state.rows[grain];
-  return (0.5 * norm2(row.velocity()) + 0.2 * norm2(row.surfaceSpin()) - model.gravity.dot(positionOf(row))) / row.inverseMass;
+  return (0.5 * norm2(row.velocity()) + 0.2 * norm2(row.surfaceSpin()) - gravity.now().dot(positionOf(row))) / row.inverseMass;
 }
 
 Ledger Simulation::Impl::ledgerNow() {
@@ -41,7 +41,7 @@ Ledger Simulation::Impl::ledgerNow() {
   std::vector<Velocities> now(state.size());
   const std::vector<std::size_t> order = byId(state);
   for (const std::size_t g : order) {
-    now[g] = velocitiesNow(state, g, model.gravity, model.timeStep);
+    now[g] = velocitiesNow(state, g, gravity.now(), model.timeStep);
     const double m = state.mass(g);
     mass += m;
     centre += m * positionOf(state.rows[g]);
@@ -56,7 +56,7 @@ Ledger Simulation::Impl::ledgerNow() {
     const Vec3 x = positionOf(state.rows[g]);
     ledger.kineticFluctuation += 0.5 * m * (now[g].v - bulk).squaredNorm();
     ledger.kineticRotation += 0.2 * m * now[g].s.squaredNorm();
-    ledger.gravitational -= m * model.gravity.dot(x);
+    ledger.gravitational -= m * gravity.now().dot(x);
     ledger.angularMomentumRest += m * (x - centre).cross(now[g].v - bulk) + (0.4 * m * r) * now[g].s;
   }
 
@@ -81,6 +81,7 @@ Ledger Simulation::Impl::ledgerNow() {
   ledger.inserted = insertedEnergy;
   ledger.removed = removedEnergy;
   ledger.initial = initialEnergy;
+  ledger.workFields = gravity.work();
   for (const auto& pass : passes) pass->account(world(), ledger);
 
   const Ledger& before = lastLedger;
@@ -233,7 +234,7 @@ void Simulation::Impl::fill(Snapshot& snapshot) {
   }
   for (const std::size_t g : byId(state)) {
     const GrainRow& row = state.rows[g];
-    const Velocities now = velocitiesNow(state, g, model.gravity, model.timeStep);
+    const Velocities now = velocitiesNow(state, g, gravity.now(), model.timeStep);
     snapshot.id.push_back(state.id[g]);
     snapshot.material.push_back(state.material[g]);
     snapshot.radius.push_back(row.radius);

@@ -1,9 +1,19 @@
 #include "sim/pass.h"
 
+#include "sim/fields/drag.h"
+#include "sim/laws/catalogue.h"
+#include "sim/pair_constants.h"
+
 namespace tsubu::sim {
 
-std::vector<std::unique_ptr<ForcePass>> makePasses(const Model&) {
+bool grainsTurn(const Model& model) { return lawTraits(lawIndex(model.contact)).turns; }
+
+std::vector<std::unique_ptr<ForcePass>> makePasses(const Model& model) {
+  const bool turns = grainsTurn(model), verlet = model.integrator == Integrator::velocityVerlet;
+  const Fields& fields = model.fields;
   std::vector<std::unique_ptr<ForcePass>> passes;
+  if (fields.drag) passes.push_back(std::make_unique<DragPass>(*fields.drag, turns, verlet));
+  if (fields.damping) passes.push_back(std::make_unique<DampingPass>(*fields.damping, turns));
   return passes;
 }
 

@@ -24,7 +24,8 @@ struct World {
   const Slabs& slabs;
   const PairLists& pairs;
   ThreadTeam& team;
-  double time;  ///< s
+  Vec3 gravity;  ///< m/s²
+  double time;   ///< s
   StepOf step;
 };
 
@@ -57,6 +58,9 @@ class ForcePass {
   /// Fingerprint of its own state, whatever the order of grains in memory.
   virtual std::uint64_t hash(const State&) const { return 0; }
 };
+
+/// Do grains turn? Without friction nothing asks for it.
+bool grainsTurn(const Model& model);
 
 /// The passes that this model asks for, in the order of the step.
 std::vector<std::unique_ptr<ForcePass>> makePasses(const Model& model);

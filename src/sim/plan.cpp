@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "sim/fields/gravity.h"
 #include "sim/laws/catalogue.h"
 #include "sim/pair_constants.h"
 #include "sim/pass.h"
@@ -19,8 +20,10 @@ Plan Simulation::plan(const Model& model) {
   item(true, fmt::format("normal contact: {}{}", model.contact.normal, model.contact.tension ? ", with tension" : ""));
   item(traits.turns, traits.turns ? fmt::format("friction: {}", model.contact.tangential) : "friction");
   item(traits.rolls, traits.rolls ? fmt::format("rolling resistance: {}", model.contact.rolling) : "rolling resistance");
-  item(traits.turns, "rotation and orientation");
-  item(model.gravity.norm() > 0, "gravity");
+  item(grainsTurn(model), "rotation and orientation");
+  item(strongestGravity(model.gravity, model.fields.gravity) > 0, model.fields.gravity.empty() ? "gravity" : "gravity that changes");
+  item(model.fields.drag.has_value(), "drag");
+  item(model.fields.damping.has_value(), "global damping");
   item(!model.walls.empty(), "walls");
   item(!model.streams.empty(), "inlets");
   item(!model.sinks.empty(), "sinks");
@@ -35,7 +38,7 @@ Plan Simulation::plan(const Model& model) {
   for (const auto& pass : makePasses(model)) plan.passes.push_back(pass->name());
   plan.passes.push_back(verlet ? "integrate: velocity Verlet" : "integrate: symplectic Euler");
 
-  plan.bytesPerGrain = sizeof(GrainRow) + sizeof(ForceRow) + (verlet ? sizeof(HalfStepRow) : 0) + (traits.turns ? sizeof(Quat) + sizeof(AngleRow) : 0) +
+  plan.bytesPerGrain = sizeof(GrainRow) + sizeof(ForceRow) + (verlet ? sizeof(HalfStepRow) : 0) + (grainsTurn(model) ? sizeof(Quat) + sizeof(AngleRow) : 0) +
                        sizeof(std::uint16_t) + sizeof(std::uint32_t) + (model.counters.empty() ? 0 : sizeof(std::uint32_t)) + sizeof(Vec3);
   plan.bytesPerContact = static_cast<std::size_t>(traits.stateSize) * sizeof(double);
   plan.bytesPerListedPair = 5 * sizeof(std::int32_t);

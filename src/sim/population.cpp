@@ -22,7 +22,7 @@ void Simulation::Impl::prepareArrivals() {
   double interval = std::numeric_limits<double>::infinity();
   for (const Stream& stream : model.streams) {
     const double r = stream.radii.smallest();
-    const double speed = stream.velocity.norm() + std::sqrt(2 * model.gravity.norm() * r);
+    const double speed = stream.velocity.norm() + std::sqrt(2 * strongestGravity(model.gravity, model.fields.gravity) * r);
     if (speed > 0) interval = std::min(interval, arrivalTravel * r / speed);
   }
   if (std::isfinite(interval)) stepsBetweenArrivals = static_cast<std::uint64_t>(std::max(1.0, std::floor(interval / model.timeStep)));
@@ -73,7 +73,7 @@ std::uint32_t Simulation::Impl::sidesOf(const Vec3& position) const {
 }
 
 void Simulation::Impl::addGrain(const Grain& grain) {
-  state.add(grain, model.materials[grain.material].values[Property::density], 0.5 * model.timeStep * model.gravity);
+  state.add(grain, model.materials[grain.material].values[Property::density], 0.5 * model.timeStep * gravity.now());
   if (!model.counters.empty()) state.sides.push_back(sidesOf(grain.position));
   rebuildNeeded = true;
 }

@@ -28,6 +28,7 @@ Simulation::Impl::Impl(Model given, int threads)
       team(threads),
       law(lawIndex(model.contact)),
       stateSize(lawTraits(law).stateSize),
+      gravity(model.gravity, model.fields.gravity),
       pairs(stateSize),
       walls(model.walls, stateSize, lawTraits(law).turns, lawTraits(law).rolls),
       passes(makePasses(model)),
@@ -79,7 +80,7 @@ void Simulation::Impl::warnOfThinWalls() {
 void Simulation::Impl::prepareState() {
   if (model.counters.size() > 32) throw Error(ErrorKind::scene, fmt::format("There are {} counters, more than 32.", model.counters.size()));
   state.verlet = model.integrator == Integrator::velocityVerlet;
-  state.turns = lawTraits(law).turns;
+  state.turns = grainsTurn(model);
   for (const Grain& grain : model.grains) addGrain(grain);
   model.grains.clear();
   streams.resize(model.streams.size());
@@ -94,7 +95,7 @@ PassContext Simulation::Impl::context(PairClass pairClass) {
   return {state.rows.data(), state.forces.data(), state.material.data(), model.materials.size(), constants, {model.timeStep, lead}};
 }
 
-World Simulation::Impl::world() { return {model, state, slabs, pairs, team, time(), {model.timeStep, lead}}; }
+World Simulation::Impl::world() { return {model, state, slabs, pairs, team, gravity.now(), time(), {model.timeStep, lead}}; }
 
 void Simulation::Impl::step() {
   computeForces();
@@ -103,8 +104,10 @@ void Simulation::Impl::step() {
 
 void Simulation::Impl::computeForces() {
   if (forcesKnown) return;
+  changeGravity();
   const double wallStep = walls.moveTo(time(), model.timeStep);
   changePopulation();
+  if (gravity.changes() && model.ledger) gravity.settle(massMoment(state));
   refreshLists();
 
   accountsKnown = model.ledger || steps % watchEvery == 0;
@@ -129,9 +132,13 @@ void Simulation::Impl::computeForces() {
         total[static_cast<std::size_t>(k)] += accounts.sum(static_cast<Accounts::Kind>(k));
   for (const auto& pass : passes) pass->addForces(world());
   wallTravel += wallStep;
-  if (steps == 0 && state.verlet) startVerlet(state, model.gravity, model.timeStep);
+  if (steps == 0 && state.verlet) startVerlet(state, gravity.now(), model.timeStep);
   forcesKnown = true;
   if (accountsKnown) watchOverlap();
+}
+
+void Simulation::Impl::changeGravity() {
+  if (gravity.changes()) gravity.moveTo(time(), model.ledger ? massMoment(state) : Vec3(Vec3::Zero()));
 }
 
 void Simulation::Impl::move() {
@@ -139,7 +146,7 @@ void Simulation::Impl::move() {
   found.assign(static_cast<std::size_t>(slabs.count()), Motion{});
   const bool turn = (steps + 1) % turnEvery == 0;
   team.run(slabs.count(), [&](int slab, int) {
-    found[static_cast<std::size_t>(slab)] = integrate(state, slabs.begin(slab), slabs.end(slab), model.gravity, model.timeStep, turn);
+    found[static_cast<std::size_t>(slab)] = integrate(state, slabs.begin(slab), slabs.end(slab), gravity.now(), model.timeStep, turn);
   });
   Motion most;
   for (const Motion& motion : found) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/thread_team.h"
+#include "sim/fields/gravity.h"
 #include "sim/integrate.h"
 #include "sim/kernel/kernels.h"
 #include "sim/neighbours/cell_grid.h"
@@ -46,6 +47,7 @@ class Simulation::Impl {
   std::vector<unsigned char> pairConstants;  ///< Law::Pair[materials²]
   PairClasses classes{};
   double lead = 1;
+  GravityClock gravity;
 
   Slabs slabs;
   CellGrid grid;
@@ -85,6 +87,7 @@ class Simulation::Impl {
   void prepareState();
   void prepareArrivals();
   void chooseDomain();
+  void changeGravity();
   void addGrain(const Grain& grain);
 
   bool listsAreDue() const { return rebuildNeeded || 2 * wallTravel > outerSkin || 2 * innerTravel > innerSkin; }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "sim/fields/drag.h"
 #include "sim/laws/catalogue.h"
 #include "sim/model.h"
 #include "sim/pair_constants.h"
@@ -35,12 +36,35 @@ std::vector<double> smallestMasses(const Model& model) {
 // S2: a mode ω, ζ is stable up to Δt = 2(√(1 + s²ζ²) − sζ)/ω, where s = 1 for symplectic Euler and 2 for velocity Verlet, whose
 // dashpot sees a velocity carried on by half a step (I2). Its tangential and rolling springs do so too: for them also Δt ≤ √2/ω.
 // S3: in a packing ω² and 2ζω are at most `mostNeighbours` times those of one contact.
-double stableStep(ContactMode contact, bool verlet, bool alongNormal) {
-  const double omega = std::sqrt(mostNeighbours * contact.stiffness), damping = mostNeighbours * contact.damping;
+// `rate`: what drag and damping add to 2ζω of a grain by itself.
+double stableStep(ContactMode contact, bool verlet, bool alongNormal, double rate) {
+  const double omega = std::sqrt(mostNeighbours * contact.stiffness), damping = mostNeighbours * contact.damping + rate;
   const double s = verlet ? 2 : 1;
   // 2(√(ω² + (s·2ζω/2)²) − s·2ζω/2)/ω² without the difference, which a strong dashpot would leave to rounding.
   const double half = 0.5 * s * damping, bound = 2 / (std::sqrt(omega * omega + half * half) + half);
   return verlet && !alongNormal ? std::min(bound, std::numbers::sqrt2 / omega) : bound;
+}
+
+// By material: the fastest that drag and damping slow down any of its grains at the speed it starts with.
+std::vector<DampingRates> fastestDamping(const Model& model) {
+  std::vector<DampingRates> rates(model.materials.size());
+  if (!model.fields.drag && !model.fields.damping) return rates;
+  const FlowField flow(model.fields.drag ? model.fields.drag->flow : Flow{});
+  const bool turns = grainsTurn(model);
+  const auto meet = [&](std::uint16_t material, double radius, const Vec3& x, const Vec3& v) {
+    const V3 u = flow.at({x.x(), x.y(), x.z()}).velocity;
+    const double slip = (v - Vec3(u.x, u.y, u.z)).norm();
+    const DampingRates rate =
+        dampingRates(model.fields, massOf(model.materials[material].values[Property::density], radius), radius, slip, turns);
+    DampingRates& most = rates[material];
+    if (std::max(rate.linear, rate.rotary) > std::max(most.linear, most.rotary)) most.fluid = rate.fluid;
+    most.linear = std::max(most.linear, rate.linear);
+    most.rotary = std::max(most.rotary, rate.rotary);
+  };
+  for (const Grain& grain : model.grains) meet(grain.material, grain.radius, grain.position, grain.velocity);
+  for (const Stream& stream : model.streams)
+    meet(stream.material, stream.radii.smallest(), stream.region.bounds().center(), stream.velocity);
+  return rates;
 }
 
 }  // namespace
@@ -49,13 +73,19 @@ TimeStepChoice chooseTimeStep(const Model& model) {
   const std::size_t law = lawIndex(model.contact), n = model.materials.size();
   const std::vector<char> meet = pairsThatMeet(model);
   const std::vector<double> mass = smallestMasses(model);
+  const std::vector<DampingRates> damping = fastestDamping(model);
+  const bool verlet = model.integrator == Integrator::velocityVerlet;
   std::vector<char> isWall(n, 0);
   for (const Wall& wall : model.walls) isWall[wall.material] = 1;
   TimeStepChoice choice{std::numeric_limits<double>::infinity(), {}};
+  const auto rateOf = [&](std::size_t a, std::size_t b, bool turning) {
+    const double linear = std::max(damping[a].linear, damping[b].linear), rotary = std::max(damping[a].rotary, damping[b].rotary);
+    return turning ? std::max(linear, rotary) : linear;
+  };
   const auto consider = [&](std::size_t a, std::size_t b, double inverseMasses, const std::string& what) {
     const std::array<ContactMode, 3> modes = contactModes(model, law, a, b, inverseMasses);
     for (std::size_t mode = 0; mode < modes.size(); ++mode) {
-      const double limit = stableStep(modes[mode], model.integrator == Integrator::velocityVerlet, mode == 0);
+      const double limit = stableStep(modes[mode], verlet, mode == 0, rateOf(a, b, mode > 0));
       constexpr std::array names{"stiffness", "tangential stiffness", "rolling stiffness"};
       if (limit < choice.limit) choice = {limit, fmt::format("{} of {}", names[mode], what)};
     }
@@ -68,6 +98,11 @@ TimeStepChoice chooseTimeStep(const Model& model) {
       if (b >= a && std::isfinite(mass[b])) consider(a, b, 1 / mass[a] + 1 / mass[b], fmt::format("{}, smallest grains", names));
       if (isWall[b]) consider(a, b, 1 / mass[a], fmt::format("{} walls, smallest grains", names));
     }
+    const double rate = std::max(damping[a].linear, damping[a].rotary);
+    // Where drag alone allows hardly more than together with the stiffest contact, it is the drag that sets the step.
+    if (const double limit = (verlet ? 1 : 2) / rate; rate > 0 && 0.9 * limit < choice.limit)
+      choice = {std::min(limit, choice.limit),
+                fmt::format("{} of {}, smallest grains", damping[a].fluid ? "drag" : "damping", model.materials[a].name)};
   }
   if (!std::isfinite(choice.limit))
     throw Error(ErrorKind::scene, "There is nothing to derive a time step from: no grain meets a grain or a wall.", "give time_step");

@@ -132,6 +132,28 @@ box = { min = [-inf, -inf, -inf], max = [inf, inf, -1] }
 [counters.gate]
 point = [0, 0, 0.1]
 radius = "5 cm"
+[[fields.gravity]]
+kind = "turn"
+axis = [0, 1, 0]
+speed = "10 deg/s"
+angle = "30 deg"
+[[fields.gravity]]
+kind = "shake"
+amplitude = [0, 0, "2 m/s^2"]
+frequency = "20 Hz"
+phase = "90 deg"
+start = "0.5 s"
+end = "1.5 s"
+[fields.drag]
+viscosity = "1 mPa s"
+drag_coefficient = 0.44
+density = "1000 kg/m^3"
+torque = false
+flow = { kind = "pipe", axis = [1, 0, 0], point = [0, 0, 0.1], radius = "5 cm", speed = "0.2 m/s" }
+[fields.damping]
+force = "1e-5 kg/s"
+torque = "1e-12 N m s"
+rate = "0.1 1/s"
 [output]
 fps = "25 fps"
 frame_interval = "4 ms"
