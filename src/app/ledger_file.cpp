@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* columns =
     "time_s,grains,contacts,deepest_overlap,inserted,removed,lost,"
-    "kinetic_bulk_J,kinetic_fluctuation_J,kinetic_rotation_J,gravitational_J,elastic_normal_J,elastic_tangential_J,elastic_rolling_J,"
+    "kinetic_bulk_J,kinetic_fluctuation_J,kinetic_rotation_J,kinetic_walls_J,gravitational_J,elastic_normal_J,elastic_tangential_J,elastic_rolling_J,"
     "elastic_bonds_J,potential_fields_J,"
     "dissipated_normal_J,dissipated_tangential_J,dissipated_friction_J,dissipated_rolling_J,dissipated_bonds_J,dissipated_breakage_J,"
     "dissipated_drag_J,work_walls_J,work_fields_J,inserted_J,removed_J,"
@@ -23,7 +23,7 @@ constexpr const char* columns =
     "angular_momentum_rest_x,angular_momentum_rest_y,angular_momentum_rest_z";
 
 std::string energies(const sim::Ledger& l) {
-  const double values[] = {l.kineticBulk, l.kineticFluctuation, l.kineticRotation, l.gravitational, l.elasticNormal, l.elasticTangential,
+  const double values[] = {l.kineticBulk, l.kineticFluctuation, l.kineticRotation, l.kineticWalls, l.gravitational, l.elasticNormal, l.elasticTangential,
                            l.elasticRolling, l.elasticBonds, l.potentialFields, l.dissipatedNormal, l.dissipatedTangential,
                            l.dissipatedFriction, l.dissipatedRolling, l.dissipatedBonds, l.dissipatedBreakage, l.dissipatedDrag,
                            l.workWalls, l.workFields, l.inserted, l.removed, l.residual(), l.residualFraction(),
@@ -43,11 +43,13 @@ std::string noEnergies() {
 
 }  // namespace
 
-LedgerFile::LedgerFile(const std::filesystem::path& path, const std::vector<std::string>& counters)
+LedgerFile::LedgerFile(const std::filesystem::path& path, const std::vector<std::string>& counters,
+                       const std::vector<std::string>& movingWalls)
     : file_(std::fopen(path.c_str(), "w")), path_(path.string()), crossed_(counters.size(), 0) {
   if (!file_) throw Error(ErrorKind::files, fmt::format("Cannot write '{}': {}.", path_, std::strerror(errno)));
   std::string header = columns;
   for (const std::string& counter : counters) header += fmt::format(",counted_{0},rate_{0}_per_s", counter);
+  for (const std::string& wall : movingWalls) header += fmt::format(",{0}_way_m,{0}_speed_m_per_s,{0}_load_N", wall);
   fmt::print(file_, "{}\n", header);
 }
 
@@ -65,6 +67,7 @@ void LedgerFile::add(sim::Simulation& simulation, bool ledger) {
     const double rate = time > lastTime_ ? static_cast<double>(counts.crossed[c] - crossed_[c]) / (time - lastTime_) : 0.0;
     row += fmt::format(",{},{:.6g}", counts.crossed[c], rate);
   }
+  for (const sim::WallState& wall : simulation.movingWalls()) row += fmt::format(",{:.9g},{:.9g},{:.9g}", wall.way, wall.speed, wall.load);
   crossed_ = counts.crossed;
   lastTime_ = time;
   if (ledger && rows_ > 0) worst_ = std::max(worst_, now.residualFraction());

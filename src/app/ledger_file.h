@@ -12,8 +12,9 @@ namespace tsubu::app {
 
 class LedgerFile {
  public:
-  /// Writes the header. Throws Error(files). `counters`: names of the planes that count, one pair of columns each.
-  LedgerFile(const std::filesystem::path& path, const std::vector<std::string>& counters);
+  /// Writes the header. Throws Error(files). `counters`: names of the planes that count, one pair of columns each; `movingWalls`: of the
+  /// walls that move under load, three columns each.
+  LedgerFile(const std::filesystem::path& path, const std::vector<std::string>& counters, const std::vector<std::string>& movingWalls);
   ~LedgerFile();
   LedgerFile(const LedgerFile&) = delete;
   LedgerFile& operator=(const LedgerFile&) = delete;

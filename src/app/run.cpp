@@ -82,7 +82,10 @@ Run::Run(const RunOptions& options) : options_(options) {
   for (const Diagnostic& warning : odd) report_.warnings.push_back(toString(warning));
   for (const sim::Counter& counter : built.model.counters) report_.counters.push_back(counter.name);
   if (options.frames) openFilm(built, scene);
-  ledger_ = std::make_unique<LedgerFile>(folder_ / "ledger.csv", report_.counters);
+  std::vector<std::string> movingWalls;
+  for (const sim::Wall& wall : built.model.walls)
+    if (wall.body) movingWalls.push_back(wall.name);
+  ledger_ = std::make_unique<LedgerFile>(folder_ / "ledger.csv", report_.counters, movingWalls);
   simulation_ = std::make_unique<sim::Simulation>(std::move(built.model), report_.threads);
 }
 

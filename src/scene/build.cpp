@@ -99,6 +99,7 @@ void buildWalls(const Scene& scene, Built& built) {
     sim::Wall made;
     made.name = wall.name;
     made.motion = motionOf(wall);
+    made.body = wall.body;
     made.material = static_cast<std::uint16_t>(materialIndex(scene, wall.material));
     TriangleMesh seen;
     if (const auto* plane = std::get_if<PlaneShape>(&wall.shape)) {
@@ -174,6 +175,13 @@ double flowSpeed(const sim::Model& model, const Box& bounds) {
   return most;
 }
 
+// What a wall may come to that moves under load: free over the height of the scene, or held back by its guide.
+double bodySpeed(const sim::WallBody& body, double gravity, const Box& bounds) {
+  const double pull = std::abs(body.force) + (body.weight ? body.mass * gravity : 0.0);
+  const double free = std::sqrt(body.velocity * body.velocity + 2 * pull / body.mass * bounds.sizes().norm());
+  return body.damping > 0 ? std::min(free, std::max(std::abs(body.velocity), pull / body.damping)) : free;
+}
+
 // The largest speed to expect: what grains start with or get from falling through the scene, and what moving walls have.
 double expectedSpeed(const sim::Model& model, const Box& bounds, double end) {
   double start = 0, wall = 0;
@@ -182,6 +190,9 @@ double expectedSpeed(const sim::Model& model, const Box& bounds, double end) {
   for (const sim::Wall& w : model.walls) {
     if (!w.motion.still() && w.surface)
       wall = std::max(wall, w.motion.maxSpeed(w.surface->asPlane() ? bounds : w.surface->bounds(), 0, end));
+  }
+  for (const sim::Wall& w : model.walls) {
+    if (w.body) wall = std::max(wall, bodySpeed(*w.body, sim::strongestGravity(model.gravity, model.fields.gravity), bounds));
   }
   const double drop = model.fields.gravity.empty()
                           ? model.gravity.cwiseAbs().dot(bounds.sizes())  // |g| × height along gravity

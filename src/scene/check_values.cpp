@@ -143,6 +143,9 @@ class ValueCheck {
   }
 
   void motions(const Wall& wall) {
+    if (wall.body && !wall.motions.empty())
+      complain({"walls", wall.name, "body"}, fmt::format("The wall '{}' cannot move both as it is told and under load.", wall.name),
+               "leave out motion or body");
     for (const Motion& motion : wall.motions) tilt(wall, motion);
     for (const Motion& motion : wall.motions) {
       if (motion.start < motion.end) continue;

@@ -69,6 +69,17 @@ void describeMotion(Form& form, Motion& motion) {
   form.quantity({"end", "The wall rests after."}, motion.end, time, notNegativeOrForever);
 }
 
+void describeBody(Form& form, sim::WallBody& body) {
+  form.quantity(required("mass", "Of the wall."), body.mass, mass, positive);
+  form.vector({"axis", "Along which it may move; any length."}, body.axis, number, VectorRule::notZero);
+  form.quantity({"force", "From outside, along the axis. With weight = false and a damping: a wall held at a constant force."}, body.force,
+                force);
+  form.boolean({"weight", "Does gravity act on it?"}, body.weight);
+  form.quantity({"damping", "Of the guide, force per velocity."}, body.damping, massRate, notNegative);
+  form.quantity({"velocity", "Along the axis when it is let go."}, body.velocity, velocity);
+  form.quantity({"start", "When it is let go; it is held before."}, body.start, time, notNegative);
+}
+
 void describeWall(Form& form, Wall& wall) {
   static constexpr Choice shapes[] = {{"plane", "An endless plane."}, {"mesh", "Triangles from a file."}};
   static constexpr Choice looks[] = {{"auto", "Planes that carry grains are ground, other planes translucent, meshes opaque."},
@@ -81,6 +92,11 @@ void describeWall(Form& form, Wall& wall) {
   form.text({"material", "Name of the material; may be left out when there is only one."}, wall.material);
   form.list({"motion", "A table, or an array of them that are applied one after the other. Absent: the wall stands still."},
             plainEntries(wall.motions, describeMotion));
+  bool moves = wall.body.has_value();
+  sim::WallBody body = wall.body.value_or(sim::WallBody{});
+  form.optionalTable({"body", "The wall moves under load along an axis: a piston, a falling plate. Absent: it moves as `motion` says."}, moves,
+                     [&](Form& f) { describeBody(f, body); });
+  wall.body = moves ? std::optional(body) : std::nullopt;
   words(form, {"look", "How it is drawn."}, wall.look, looks);
   form.optionalColour({"colour", "Of the wall, \"#rrggbb\". Absent: that of its material, or grey."}, wall.colour);
   form.optionalQuantity({"opacity", "Of a translucent wall seen face on."}, wall.opacity, number, share);

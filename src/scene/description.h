@@ -193,6 +193,7 @@ struct Wall {
   std::variant<PlaneShape, MeshShape> shape;
   std::string material;  ///< empty: the only one
   std::vector<Motion> motions;
+  std::optional<sim::WallBody> body;
   Look look = Look::automatic;
   std::optional<render::Colour> colour;
   std::optional<double> opacity;  ///< of a translucent wall

@@ -36,11 +36,13 @@ TriangleMesh fan(const std::string& name, const Polygon& polygon) {
   return mesh;
 }
 
+bool moves(const Wall& wall) { return wall.body || !wall.motions.empty(); }
+
 Polygon cutByOtherPlanes(const Scene& scene, const Wall& wall, Polygon polygon) {
-  if (!wall.motions.empty()) return polygon;
+  if (moves(wall)) return polygon;
   for (const Wall& other : scene.walls) {
     const auto* plane = std::get_if<PlaneShape>(&other.shape);
-    if (!plane || &other == &wall || !other.motions.empty()) continue;
+    if (!plane || &other == &wall || moves(other)) continue;
     const Vec3 normal = plane->normal.normalized();
     polygon = cut(polygon, normal, normal.dot(plane->point));
   }

@@ -8,6 +8,18 @@
 
 namespace tsubu::sim {
 
+/// An energy that grows by a share per step. In velocity Verlet the share of the present step runs half a step beyond the present
+/// instant, as the memory of contacts does.
+struct Tally {
+  double total = 0, last = 0;  ///< J: so far, and in the last step
+
+  void add(double share) {
+    last = share;
+    total += share;
+  }
+  double now(double lead) const { return total - (1 - lead) * last; }
+};
+
 /// All energies in joules. "Dissipated" and "work" count from the start of the run.
 struct Ledger {
   double time = 0;
@@ -15,7 +27,8 @@ struct Ledger {
   double kineticBulk = 0;         ///< ½ M V_G²
   double kineticFluctuation = 0;  ///< Σ ½ m |v − V_G|²
   double kineticRotation = 0;     ///< Σ ½ I ω²
-  double gravitational = 0;       ///< −Σ m g·x
+  double kineticWalls = 0;        ///< Σ ½ M s′² of walls that move under load
+  double gravitational = 0;       ///< −Σ m g·x, such walls included
   double elasticNormal = 0;
   double elasticTangential = 0;
   double elasticRolling = 0;
@@ -30,7 +43,7 @@ struct Ledger {
   double dissipatedBreakage = 0;    ///< what bonds held when they broke
   double dissipatedDrag = 0;        ///< by drag and global damping
 
-  double workWalls = 0;   ///< done by moving walls on the grains
+  double workWalls = 0;   ///< done by walls that move as they are told on the grains, and by the forces on those that move under load
   double workFields = 0;  ///< done by gravity that changes, flows and magnetic fields
   double inserted = 0;    ///< energy brought by grains that came in
   double removed = 0;     ///< energy taken by grains that were taken out or lost
@@ -41,7 +54,7 @@ struct Ledger {
 
   double initial = 0;  ///< total mechanical energy at the start
 
-  double kinetic() const { return kineticBulk + kineticFluctuation + kineticRotation; }
+  double kinetic() const { return kineticBulk + kineticFluctuation + kineticRotation + kineticWalls; }
   double elastic() const { return elasticNormal + elasticTangential + elasticRolling + elasticBonds; }
   double mechanical() const { return kinetic() + gravitational + elastic() + potentialFields; }
   double dissipated() const {

@@ -12,6 +12,7 @@
 #include "sim/fields/fields.h"
 #include "sim/insertion/stream.h"
 #include "sim/properties.h"
+#include "sim/walls/body.h"
 #include "sim/walls/motion.h"
 #include "sim/walls/surface.h"
 
@@ -52,6 +53,7 @@ struct Wall {
   std::string name;
   std::shared_ptr<const Surface> surface;
   WallMotion motion;
+  std::optional<WallBody> body;  ///< moves under load; then `motion` is still
   std::uint16_t material = 0;
 };
 

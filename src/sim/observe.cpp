@@ -82,6 +82,7 @@ Ledger Simulation::Impl::ledgerNow() {
   ledger.removed = removedEnergy;
   ledger.initial = initialEnergy;
   ledger.workFields = gravity.work();
+  for (const MovingWall& wall : moving) wall.account(model.timeStep, lead, gravity.now(), ledger);
   for (const auto& pass : passes) pass->account(world(), ledger);
 
   const Ledger& before = lastLedger;
@@ -92,6 +93,14 @@ Ledger Simulation::Impl::ledgerNow() {
   ledger.turnover = turnover;
   lastLedger = ledger;
   return ledger;
+}
+
+std::vector<WallState> Simulation::Impl::movingWallsNow() {
+  computeForces();
+  std::vector<WallState> states;
+  for (const MovingWall& wall : moving)
+    states.push_back({model.walls[wall.wall()].name, wall.way(), wall.speedNow(model.timeStep, lead), wall.load()});
+  return states;
 }
 
 Simulation::Impl::DeepestContact Simulation::Impl::surveyContacts() const {
@@ -179,10 +188,12 @@ void Simulation::Impl::visitContacts(Visit&& visit) const {
       const WallPlace& place = walls.places()[group.wall];
       const std::span<const std::uint32_t> features(slab.features.data() + group.first, static_cast<std::size_t>(group.last - group.first));
       model.walls[group.wall].surface->contacts(place.pose.toLocal(positionOf(row)), row.radius, features, contacts);
+      const std::optional<WallBody>& body = model.walls[group.wall].body;
+      const double mass = 1 / (row.inverseMass + (body ? 1 / body->mass : 0));
       for (const WallContact& contact : contacts) {
         const Vec3 velocity = place.twist.at(place.pose.toWorld(contact.point));
         SeenContact seen{g, noGrain, see(contact.distance * (place.pose.rotation * contact.normal), row.radius,
-                                         Vec3(row.vx, row.vy, row.vz) - velocity, 1 / row.inverseMass, row.radius),
+                                         Vec3(row.vx, row.vy, row.vz) - velocity, mass, row.radius),
                          state.material[g] * n + model.walls[group.wall].material, contact.weight, {}, {}};
         const auto candidate = std::lower_bound(features.begin(), features.end(), contact.feature) - features.begin();
         remember(slab.candidates[static_cast<std::size_t>(group.first + candidate)].memory, 1, seen);
@@ -301,6 +312,8 @@ std::uint64_t Simulation::Impl::stateHash() {
     }
   }
   hash.add(contactHash());
+  for (const MovingWall& wall : moving)
+    for (const double value : {wall.way(), wall.speedSeen(), wall.load()}) hash.add(value);
   for (const auto& pass : passes) hash.add(pass->hash(state));
   return hash.value();
 }

@@ -29,18 +29,6 @@ struct World {
   StepOf step;
 };
 
-/// An energy that grows by a share per step. In velocity Verlet the share of the present step runs half a step beyond the present
-/// instant, as the memory of contacts does.
-struct Tally {
-  double total = 0, last = 0;  ///< J: so far, and in the last step
-
-  void add(double share) {
-    last = share;
-    total += share;
-  }
-  double now(double lead) const { return total - (1 - lead) * last; }
-};
-
 class ForcePass {
  public:
   virtual ~ForcePass() = default;

@@ -1,5 +1,7 @@
 // What a model will do and what it costs, without running it.
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "sim/fields/gravity.h"
@@ -25,6 +27,8 @@ Plan Simulation::plan(const Model& model) {
   item(model.fields.drag.has_value(), "drag");
   item(model.fields.damping.has_value(), "global damping");
   item(!model.walls.empty(), "walls");
+  const auto moves = [](const Wall& wall) { return wall.body.has_value(); };
+  item(std::any_of(model.walls.begin(), model.walls.end(), moves), "walls that move under load");
   item(!model.streams.empty(), "inlets");
   item(!model.sinks.empty(), "sinks");
   item(!model.counters.empty(), "counters");

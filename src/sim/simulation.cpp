@@ -9,6 +9,7 @@
 #include "sim/laws/catalogue.h"
 #include "sim/pair_constants.h"
 #include "sim/simulation_impl.h"
+#include "sim/time_step.h"
 
 namespace tsubu::sim {
 
@@ -31,9 +32,11 @@ Simulation::Impl::Impl(Model given, int threads)
       gravity(model.gravity, model.fields.gravity),
       pairs(stateSize),
       walls(model.walls, stateSize, lawTraits(law).turns, lawTraits(law).rolls),
+      moving(wallsUnderLoad(model)),
       passes(makePasses(model)),
       stages(static_cast<std::size_t>(threads)) {
   prepareLaws();
+  for (const MovingWall& wall : moving) contactsOfMoving.push_back(stiffestContact(model, law, wall.wall()));
   warnOfThinWalls();
   prepareState();
   if (model.ledger) {
@@ -106,8 +109,9 @@ void Simulation::Impl::computeForces() {
   if (forcesKnown) return;
   changeGravity();
   const double wallStep = walls.moveTo(time(), model.timeStep);
+  placeMovingWalls();
   changePopulation();
-  if (gravity.changes() && model.ledger) gravity.settle(massMoment(state));
+  if (gravity.changes() && model.ledger) gravity.settle(momentOfMass());
   refreshLists();
 
   accountsKnown = model.ledger || steps % watchEvery == 0;
@@ -131,6 +135,7 @@ void Simulation::Impl::computeForces() {
       for (int k = Accounts::normal; k <= Accounts::rolling; ++k)
         total[static_cast<std::size_t>(k)] += accounts.sum(static_cast<Accounts::Kind>(k));
   for (const auto& pass : passes) pass->addForces(world());
+  loadMovingWalls();
   wallTravel += wallStep;
   if (steps == 0 && state.verlet) startVerlet(state, gravity.now(), model.timeStep);
   forcesKnown = true;
@@ -138,7 +143,29 @@ void Simulation::Impl::computeForces() {
 }
 
 void Simulation::Impl::changeGravity() {
-  if (gravity.changes()) gravity.moveTo(time(), model.ledger ? massMoment(state) : Vec3(Vec3::Zero()));
+  if (gravity.changes()) gravity.moveTo(time(), model.ledger ? momentOfMass() : Vec3(Vec3::Zero()));
+}
+
+Vec3 Simulation::Impl::momentOfMass() const { return massMoment(state) + massMoment(moving); }
+
+void Simulation::Impl::placeMovingWalls() {
+  for (const MovingWall& wall : moving)
+    walls.place(wall.wall(), {{Quat::Identity(), wall.way() * wall.axis()}, {wall.speedSeen() * wall.axis(), Vec3::Zero(), Vec3::Zero()}});
+}
+
+// A wall lighter than its contacts can bear at this step is named before it takes off (S2 with all of them in one direction).
+void Simulation::Impl::loadMovingWalls() {
+  if (moving.empty()) return;
+  const std::vector<WallLoad> loads = walls.loads();
+  for (std::size_t w = 0; w < moving.size(); ++w) {
+    MovingWall& wall = moving[w];
+    wall.feel(loads[w], gravity.now(), time(), model.timeStep, lead);
+    if (warnedLightWall_ || !(model.timeStep > stableStep(wall, contactsOfMoving[w], state.verlet))) continue;
+    warnedLightWall_ = true;
+    complain(fmt::format("Wall '{}' is too light for {} contacts at once: its step would have to be below {:.4g} s, t = {:.6g} s.",
+                         model.walls[wall.wall()].name, wall.contacts(), stableStep(wall, contactsOfMoving[w], state.verlet), time()),
+             "give it more mass, or use a smaller time_step");
+  }
 }
 
 void Simulation::Impl::move() {
@@ -153,6 +180,9 @@ void Simulation::Impl::move() {
     most.fastest2 = std::max(most.fastest2, motion.fastest2);
     most.travel2 = std::max(most.travel2, motion.travel2);
   }
+  double wallStep = 0;
+  for (MovingWall& wall : moving) wallStep = std::max(wallStep, wall.move(model.timeStep, lead));
+  wallTravel += wallStep;
   fastest = std::sqrt(most.fastest2);
   innerTravel += fastest * model.timeStep;
   outerTravel += fastest * model.timeStep;
@@ -278,6 +308,7 @@ const std::vector<std::string>& Simulation::warnings() const { return impl_->war
 std::uint64_t Simulation::grainSteps() const { return impl_->grainSteps; }
 Ledger Simulation::ledger() { return impl_->ledgerNow(); }
 ContactSummary Simulation::contacts() { return impl_->contactsNow(); }
+std::vector<WallState> Simulation::movingWalls() { return impl_->movingWallsNow(); }
 void Simulation::fill(Snapshot& snapshot) { impl_->fill(snapshot); }
 std::uint64_t Simulation::stateHash() { return impl_->stateHash(); }
 

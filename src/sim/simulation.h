@@ -32,6 +32,13 @@ struct ContactSummary {
   double deepestOverlap = 0;  ///< largest overlap over the smaller radius
 };
 
+/// A wall that moves under load, at the present instant.
+struct WallState {
+  std::string wall;
+  double way, speed;  ///< along its axis, m and m/s
+  double load;        ///< N: of the grains, along its axis
+};
+
 /// What is modelled and what it costs; printed by `tsubu explain`.
 struct Plan {
   std::vector<std::string> passes;      ///< in the order of the step
@@ -66,6 +73,7 @@ class Simulation {
   /// All of these evaluate the state at time(), forces included.
   Ledger ledger();
   ContactSummary contacts();
+  std::vector<WallState> movingWalls();
   void fill(Snapshot& snapshot);
   /// Hash over the grains in the order of their ids (position, velocity, orientation) and the contact memory; equal for equal bits.
   std::uint64_t stateHash();

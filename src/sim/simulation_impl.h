@@ -17,6 +17,7 @@
 #include "sim/simulation.h"
 #include "sim/state.h"
 #include "sim/wall_pass.h"
+#include "sim/walls/moving_wall.h"
 
 namespace tsubu::sim {
 
@@ -36,6 +37,7 @@ class Simulation::Impl {
   // What can be seen.
   Ledger ledgerNow();
   ContactSummary contactsNow();
+  std::vector<WallState> movingWallsNow();
   void fill(Snapshot& snapshot);
   std::uint64_t stateHash();
 
@@ -53,6 +55,8 @@ class Simulation::Impl {
   CellGrid grid;
   PairLists pairs;
   WallPass walls;
+  std::vector<MovingWall> moving;                   ///< walls that move under load
+  std::vector<ContactMode> contactsOfMoving;        ///< the stiffest that each can have, for a mass of 1 kg
   std::vector<std::unique_ptr<ForcePass>> passes;  ///< beside contacts
   std::vector<Stage> stages;                   ///< one per thread
   std::vector<Accounts> last;                  ///< one per slab: this step's
@@ -88,6 +92,9 @@ class Simulation::Impl {
   void prepareArrivals();
   void chooseDomain();
   void changeGravity();
+  Vec3 momentOfMass() const;
+  void placeMovingWalls();
+  void loadMovingWalls();
   void addGrain(const Grain& grain);
 
   bool listsAreDue() const { return rebuildNeeded || 2 * wallTravel > outerSkin || 2 * innerTravel > innerSkin; }
@@ -127,7 +134,7 @@ class Simulation::Impl {
   void addLoads(std::vector<double>& load) const;
   std::uint64_t contactHash() const;
 
-  bool warnedOverlap_ = false, warnedTravel_ = false;
+  bool warnedOverlap_ = false, warnedTravel_ = false, warnedLightWall_ = false;
 };
 
 }  // namespace tsubu::sim

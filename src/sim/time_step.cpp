@@ -12,6 +12,7 @@
 #include "sim/model.h"
 #include "sim/pair_constants.h"
 #include "sim/state.h"
+#include "sim/time_step.h"
 
 namespace tsubu::sim {
 
@@ -33,16 +34,10 @@ std::vector<double> smallestMasses(const Model& model) {
   return mass;
 }
 
-// S2: a mode ω, ζ is stable up to Δt = 2(√(1 + s²ζ²) − sζ)/ω, where s = 1 for symplectic Euler and 2 for velocity Verlet, whose
-// dashpot sees a velocity carried on by half a step (I2). Its tangential and rolling springs do so too: for them also Δt ≤ √2/ω.
-// S3: in a packing ω² and 2ζω are at most `mostNeighbours` times those of one contact.
-// `rate`: what drag and damping add to 2ζω of a grain by itself.
-double stableStep(ContactMode contact, bool verlet, bool alongNormal, double rate) {
-  const double omega = std::sqrt(mostNeighbours * contact.stiffness), damping = mostNeighbours * contact.damping + rate;
-  const double s = verlet ? 2 : 1;
-  // 2(√(ω² + (s·2ζω/2)²) − s·2ζω/2)/ω² without the difference, which a strong dashpot would leave to rounding.
-  const double half = 0.5 * s * damping, bound = 2 / (std::sqrt(omega * omega + half * half) + half);
-  return verlet && !alongNormal ? std::min(bound, std::numbers::sqrt2 / omega) : bound;
+// S3: in a packing ω² and 2ζω are at most `mostNeighbours` times those of one contact. `rate`: what drag and damping add to 2ζω of a
+// grain by itself.
+double stableStepInPacking(ContactMode contact, bool verlet, bool alongNormal, double rate) {
+  return stableStep({mostNeighbours * contact.stiffness, mostNeighbours * contact.damping + rate}, verlet, alongNormal);
 }
 
 // By material: the fastest that drag and damping slow down any of its grains at the speed it starts with.
@@ -69,6 +64,32 @@ std::vector<DampingRates> fastestDamping(const Model& model) {
 
 }  // namespace
 
+// S2: a mode ω, ζ is stable up to Δt = 2(√(1 + s²ζ²) − sζ)/ω, where s = 1 for symplectic Euler and 2 for velocity Verlet, whose
+// dashpot sees a velocity carried on by half a step (I2). Its tangential and rolling springs do so too: for them also Δt ≤ √2/ω.
+double stableStep(ContactMode mode, bool verlet, bool alongNormal) {
+  const double omega = std::sqrt(mode.stiffness), s = verlet ? 2 : 1;
+  // 2(√(ω² + (s·2ζω/2)²) − s·2ζω/2)/ω² without the difference, which a strong dashpot would leave to rounding.
+  const double half = 0.5 * s * mode.damping, bound = 2 / (std::sqrt(omega * omega + half * half) + half);
+  return verlet && !alongNormal ? std::min(bound, std::numbers::sqrt2 / omega) : bound;
+}
+
+ContactMode stiffestContact(const Model& model, std::size_t law, std::size_t wall) {
+  ContactMode stiffest;
+  const std::vector<double> mass = smallestMasses(model);
+  for (std::size_t a = 0; a < mass.size(); ++a) {
+    if (!std::isfinite(mass[a])) continue;
+    const ContactMode mode = contactModes(model, law, a, model.walls[wall].material, 1 / mass[a])[0];
+    stiffest.stiffness = std::max(stiffest.stiffness, mode.stiffness * mass[a]);
+    stiffest.damping = std::max(stiffest.damping, mode.damping * mass[a]);
+  }
+  return stiffest;
+}
+
+double stableStep(const MovingWall& wall, ContactMode contact, bool verlet) {
+  const double n = wall.contacts(), inverseMass = 1 / wall.body().mass;
+  return stableStep({n * contact.stiffness * inverseMass, (n * contact.damping + wall.body().damping) * inverseMass}, verlet, true);
+}
+
 TimeStepChoice chooseTimeStep(const Model& model) {
   const std::size_t law = lawIndex(model.contact), n = model.materials.size();
   const std::vector<char> meet = pairsThatMeet(model);
@@ -76,7 +97,11 @@ TimeStepChoice chooseTimeStep(const Model& model) {
   const std::vector<DampingRates> damping = fastestDamping(model);
   const bool verlet = model.integrator == Integrator::velocityVerlet;
   std::vector<char> isWall(n, 0);
-  for (const Wall& wall : model.walls) isWall[wall.material] = 1;
+  std::vector<double> inverseWallMass(n, 0);
+  for (const Wall& wall : model.walls) {
+    isWall[wall.material] = 1;
+    if (wall.body) inverseWallMass[wall.material] = std::max(inverseWallMass[wall.material], 1 / wall.body->mass);
+  }
   TimeStepChoice choice{std::numeric_limits<double>::infinity(), {}};
   const auto rateOf = [&](std::size_t a, std::size_t b, bool turning) {
     const double linear = std::max(damping[a].linear, damping[b].linear), rotary = std::max(damping[a].rotary, damping[b].rotary);
@@ -85,7 +110,7 @@ TimeStepChoice chooseTimeStep(const Model& model) {
   const auto consider = [&](std::size_t a, std::size_t b, double inverseMasses, const std::string& what) {
     const std::array<ContactMode, 3> modes = contactModes(model, law, a, b, inverseMasses);
     for (std::size_t mode = 0; mode < modes.size(); ++mode) {
-      const double limit = stableStep(modes[mode], verlet, mode == 0, rateOf(a, b, mode > 0));
+      const double limit = stableStepInPacking(modes[mode], verlet, mode == 0, rateOf(a, b, mode > 0));
       constexpr std::array names{"stiffness", "tangential stiffness", "rolling stiffness"};
       if (limit < choice.limit) choice = {limit, fmt::format("{} of {}", names[mode], what)};
     }
@@ -96,7 +121,7 @@ TimeStepChoice chooseTimeStep(const Model& model) {
       if (!meet[a * n + b]) continue;
       const std::string names = fmt::format("{}–{}", model.materials[a].name, model.materials[b].name);
       if (b >= a && std::isfinite(mass[b])) consider(a, b, 1 / mass[a] + 1 / mass[b], fmt::format("{}, smallest grains", names));
-      if (isWall[b]) consider(a, b, 1 / mass[a], fmt::format("{} walls, smallest grains", names));
+      if (isWall[b]) consider(a, b, 1 / mass[a] + inverseWallMass[b], fmt::format("{} walls, smallest grains", names));
     }
     const double rate = std::max(damping[a].linear, damping[a].rotary);
     // Where drag alone allows hardly more than together with the stiffest contact, it is the drag that sets the step.

@@ -12,18 +12,35 @@ namespace {
 V3 v3(const Vec3& a) { return {a.x(), a.y(), a.z()}; }
 Vec3 centreOf(const GrainRow& row) { return {row.x, row.y, row.z}; }
 
+// A wall that moves under load takes part with its mass; all others cannot be moved.
+double inverseMassOf(const Wall& wall) { return wall.body ? 1 / wall.body->mass : 0; }
+
 // A contact lies at least this share of the radius away from the centre, so that its direction survives the arithmetic.
 constexpr double leastDistance = 1e-9;
 
 }  // namespace
 
 WallPass::WallPass(const std::vector<Wall>& walls, int stateSize, bool turns, bool rolls)
-    : walls_(&walls), stateSize_(stateSize), turns_(turns), rolls_(rolls), places_(walls.size()) {}
+    : walls_(&walls), stateSize_(stateSize), turns_(turns), rolls_(rolls), places_(walls.size()) {
+  for (const Wall& wall : walls) loadOf_.push_back(wall.body ? static_cast<int>(loaded_++) : -1);
+}
+
+std::vector<WallLoad> WallPass::loads() const {
+  std::vector<WallLoad> sums(loaded_);
+  for (const SlabWalls& slab : slabs_) {
+    for (std::size_t l = 0; l < slab.loads.size(); ++l) {
+      sums[l].force += slab.loads[l].force;
+      sums[l].contacts += slab.loads[l].contacts;
+    }
+  }
+  return sums;
+}
 
 double WallPass::moveTo(double t, double dt) {
   double travel = 0;
   for (std::size_t w = 0; w < walls_->size(); ++w) {
     const Wall& wall = (*walls_)[w];
+    if (wall.body) continue;
     places_[w].pose = wall.motion.at(t);
     places_[w].twist = wall.motion.twistAt(t);
     if (wall.motion.still()) continue;
@@ -119,6 +136,7 @@ struct WallPass::Batch {
   Accounts& accounts;
   int count = 0;
   std::array<std::int32_t, chunkSize> grain, candidate;
+  std::array<int, chunkSize> load;  // of which wall, as in SlabWalls::loads
   std::array<Vec3, chunkSize> wallVelocity, wallSpin;
 };
 
@@ -126,6 +144,7 @@ void WallPass::evaluateSlab(int slabNumber, const PassContext& context, WallKern
                             Accounts& accounts) {
   SlabWalls& slab = slabs_[static_cast<std::size_t>(slabNumber)];
   slab.lastWork = 0;
+  slab.loads.assign(loaded_, WallLoad{});
   slab.tunnelled.clear();
   if (slab.groups.empty()) return;
   Batch batch(kernel, account, stage, accounts);
@@ -181,6 +200,7 @@ void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, const PassContex
     }
     const Vec3 velocity = place.twist.at(point);
     batch.grain[static_cast<std::size_t>(q)] = group.grain;
+    batch.load[static_cast<std::size_t>(q)] = loadOf_[group.wall];
     batch.candidate[static_cast<std::size_t>(q)] = c;
     batch.wallVelocity[static_cast<std::size_t>(q)] = velocity;
     batch.wallSpin[static_cast<std::size_t>(q)] = place.twist.angularVelocity;
@@ -188,7 +208,7 @@ void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, const PassContex
     s.dx[q] = d.x(), s.dy[q] = d.y(), s.dz[q] = d.z();
     s.radiusSum[q] = row.radius;
     s.dvx[q] = row.vx - velocity.x(), s.dvy[q] = row.vy - velocity.y(), s.dvz[q] = row.vz - velocity.z();
-    s.inverseMassSum[q] = row.inverseMass;
+    s.inverseMassSum[q] = row.inverseMass + inverseMassOf(wall);
     s.sx[q] = row.sx, s.sy[q] = row.sy, s.sz[q] = row.sz;
     const V3 spin = row.inverseRadius * row.surfaceSpin(), wallSpin = v3(place.twist.angularVelocity);
     const V3 mean = 0.5 * (spin + wallSpin), difference = spin - wallSpin;
@@ -247,6 +267,12 @@ void WallPass::flush(SlabWalls& slab, const PassContext& context, Batch& batch) 
     row.fx += s.fx[q], row.fy += s.fy[q], row.fz += s.fz[q];
     if (turns_) row.qx += s.qx[q], row.qy += s.qy[q], row.qz += s.qz[q];
     if (rolls_) row.qx -= s.mx[q] * inverseRadius, row.qy -= s.my[q] * inverseRadius, row.qz -= s.mz[q] * inverseRadius;
+    if (batch.load[k] >= 0) {
+      WallLoad& load = slab.loads[static_cast<std::size_t>(batch.load[k])];
+      load.force -= Vec3(s.fx[q], s.fy[q], s.fz[q]);
+      load.contacts += candidate.touching;
+      continue;
+    }
     if (!batch.account) continue;
     double power = s.fx[q] * batch.wallVelocity[k].x() + s.fy[q] * batch.wallVelocity[k].y() + s.fz[q] * batch.wallVelocity[k].z();
     if (rolls_) power += s.mx[q] * batch.wallSpin[k].x() + s.my[q] * batch.wallSpin[k].y() + s.mz[q] * batch.wallSpin[k].z();

@@ -9,6 +9,7 @@
 #include "sim/model.h"
 #include "sim/neighbours/slabs.h"
 #include "sim/state.h"
+#include "sim/walls/moving_wall.h"
 
 namespace tsubu::sim {
 
@@ -32,7 +33,8 @@ struct SlabWalls {
   std::vector<WallGroup> groups;
   std::vector<WallCandidate> candidates;
   std::vector<std::uint32_t> features;  ///< of the candidates, ascending within a group
-  double work = 0, lastWork = 0;        ///< J: done by the walls so far, and in the last step
+  double work = 0, lastWork = 0;        ///< J: done by walls that move as they are told so far, and in the last step
+  std::vector<WallLoad> loads;          ///< in this step, of the walls that move under load
   std::vector<std::int32_t> tunnelled;  ///< grains whose centre went through a face in the last step
 };
 
@@ -49,6 +51,10 @@ class WallPass {
   /// Places of all walls at time t, before the slabs are evaluated. Returns how far any wall may move against its place in the time dt.
   double moveTo(double t, double dt);
   const std::vector<WallPlace>& places() const { return places_; }
+  /// Where a wall is that moves under load.
+  void place(std::size_t wall, const WallPlace& place) { places_[wall] = place; }
+  /// What the grains did to the walls that move under load, in the order of these, in the last step.
+  std::vector<WallLoad> loads() const;
 
   /// New candidates for grains in their new order; memory goes along. `newPlace`: old place → new place, −1 for gone. `dt`: of the
   /// step that has just been made (0: none yet), so that a grain that came from behind a wall is found out.
@@ -74,6 +80,8 @@ class WallPass {
   int stateSize_;
   bool turns_, rolls_;
   std::vector<WallPlace> places_;
+  std::vector<int> loadOf_;    // by wall: its place among those that move under load; −1: none of them
+  std::size_t loaded_ = 0;
   std::vector<SlabWalls> slabs_;
 };
 

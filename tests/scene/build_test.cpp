@@ -37,8 +37,8 @@ TEST(Build, EveryAlternativeOfTheFormatRuns) {
   EXPECT_EQ(b.model.streams[0].kilogramsPerSecond, 0.2);
   EXPECT_EQ(b.model.streams[0].count, 100u);
   EXPECT_EQ(b.model.streams[1].grainsPerSecond, 50);
-  EXPECT_EQ(b.model.walls.size(), 3u);
-  EXPECT_EQ(b.walls.size(), 3u);
+  EXPECT_EQ(b.model.walls.size(), 4u);
+  EXPECT_EQ(b.walls.size(), 4u);
   EXPECT_EQ(b.model.walls[2].motion.parts().size(), 3u);
   EXPECT_FALSE(b.model.watch.stop);
   EXPECT_EQ(b.style.grains.materials.size(), 1u);

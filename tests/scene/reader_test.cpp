@@ -76,7 +76,8 @@ TEST(Reader, EveryAlternativeOfTheFormat) {
   EXPECT_EQ(std::get<Inlet>(scene.grains[4].from).rateKind, RateKind::number);
   EXPECT_EQ(std::get<Inlet>(scene.grains[4].from).rate, 50);
   EXPECT_EQ(std::get<Listed>(scene.grains[5].from).positions[1], Vec3(0.51, 0, 0));
-  ASSERT_EQ(scene.walls.size(), 3u);
+  ASSERT_EQ(scene.walls.size(), 4u);
+  EXPECT_EQ(scene.walls[3].body->force, -3);
   ASSERT_EQ(scene.walls[2].motions.size(), 3u);
   EXPECT_DOUBLE_EQ(std::get<Rotate>(scene.walls[2].motions[1].kind).speed, -12 * 2 * pi / 60);
   EXPECT_EQ(scene.walls[2].motions[1].start, 0.5);

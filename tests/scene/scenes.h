@@ -127,6 +127,10 @@ start = "0.5 s"
 kind = "oscillate"
 amplitude = [0, 0, "1 cm"]
 frequency = "2 Hz"
+[walls.lid]
+plane = { point = [0, 0, 2.9], normal = [0, 0, -1] }
+material = "glass"
+body = { mass = "2 kg", axis = [0, 0, 1], force = "-3 N", weight = false, damping = "5 kg/s", velocity = "-1 cm/s", start = "0.2 s" }
 [sinks.below]
 box = { min = [-inf, -inf, -inf], max = [inf, inf, -1] }
 [counters.gate]

@@ -1,0 +1,18 @@
+#pragma once
+// What a step may be (docs/physics.md, S1–S3).
+
+#include "sim/laws/contact.h"
+#include "sim/walls/moving_wall.h"
+
+namespace tsubu::sim {
+
+/// s: the longest stable step of one mode, ω² and 2ζω (S2). `alongNormal`: its spring knows its length and not only its history.
+double stableStep(ContactMode mode, bool verlet, bool alongNormal);
+
+/// The stiffest contact along the normal between a wall and any grain of the model, as for a mass of 1 kg: k and η.
+ContactMode stiffestContact(const Model& model, std::size_t law, std::size_t wall);
+
+/// s: the longest stable step of a wall that moves under load, all its contacts pressing in one direction.
+double stableStep(const MovingWall& wall, ContactMode contact, bool verlet);
+
+}  // namespace tsubu::sim
