@@ -18,36 +18,51 @@ std::string pairName(const Scene& scene, std::pair<std::size_t, std::size_t> pai
   return fmt::format("{}–{}", scene.materials[pair.first].name, scene.materials[pair.second].name);
 }
 
-void checkNeed(const Scene& scene, const Reading& reading, const PositionOf& positionOf, Findings& findings) {
+bool lacks(const Scene& scene, std::pair<std::size_t, std::size_t> pair, const sim::Need& need) {
+  if (sim::infoOf(need.property).scope == sim::Scope::pair) {
+    const Properties values = pairProperties(scene, pair.first, pair.second);
+    return !values[need.property] && !values[need.alternative];
+  }
+  return !scene.materials[pair.first].properties[need.property] || !scene.materials[pair.second].properties[need.property];
+}
+
+void checkNeed(const Scene& scene, const sim::Reading& reading, const PositionOf& positionOf, Findings& findings) {
   const sim::Need& need = reading.need;
   if (need.optional) return;
-  const auto pairs = touchingPairs(scene);
-  std::vector<std::string> lacking;
-  for (const auto& pair : pairs) {
-    const Properties values = pairProperties(scene, pair.first, pair.second);
-    if (!values[need.property] && !values[need.alternative]) lacking.push_back(pairName(scene, pair));
-  }
+  const sim::PropertyInfo& info = sim::infoOf(need.property);
+  const std::string either = need.property == need.alternative ? std::string() : fmt::format(" (or '{}')", keyOf(need.alternative));
+  std::string sentence(info.sentence);
+  if (sentence.back() == '.') sentence.pop_back();
+  std::vector<std::pair<std::size_t, std::size_t>> lacking;
+  for (const auto& pair : touchingPairs(scene))
+    if (lacks(scene, pair, need)) lacking.push_back(pair);
   if (lacking.empty()) return;
-  const std::string what = need.property == need.alternative ? fmt::format("'{}'", keyOf(need.property))
-                                                             : fmt::format("'{}' (or '{}')", keyOf(need.property), keyOf(need.alternative));
-  std::string hint = fmt::format("write it in [pairs]; {}", sim::infoOf(need.property).sentence);
-  if (hint.back() == '.') hint.pop_back();
-  findings.errors.push_back({positionOf({"pairs"}),
-                             fmt::format("The {} law '{}' needs {} for the pair {}{}.", reading.family, reading.law, what, lacking.front(),
-                                         lacking.size() > 1 ? fmt::format(" and {} more", lacking.size() - 1) : std::string()),
-                             std::move(hint)});
+  const std::string more = lacking.size() > 1 ? fmt::format(" and {} more", lacking.size() - 1) : std::string();
+  if (info.scope == sim::Scope::pair) {
+    findings.errors.push_back({positionOf({"pairs"}),
+                               fmt::format("The {} law '{}' needs '{}'{} for the pair {}{}.", reading.family, reading.law, info.key, either,
+                                           pairName(scene, lacking.front()), more),
+                               fmt::format("write it in [pairs]; {}", sentence)});
+    return;
+  }
+  const auto [a, b] = lacking.front();
+  const Material& without = scene.materials[scene.materials[a].properties[need.property] ? b : a];
+  findings.errors.push_back({positionOf({"materials", without.name}),
+                             fmt::format("The {} law '{}' needs '{}' of the material '{}'.", reading.family, reading.law, info.key, without.name),
+                             fmt::format("write it in [materials.{}]; {}", without.name, sentence)});
 }
 
 // Values that no chosen law reads are not wrong (the law may be switched for a comparison), but worth a word; two that say the same
 // thing in different ways are.
-void checkTable(const Scene& scene, const Properties& properties, const Path& path, const PositionOf& positionOf, Findings& findings) {
+void checkTable(const Scene& scene, const Properties& properties, sim::Scope scope, const Path& path, const PositionOf& positionOf, Findings& findings) {
   const auto at = [&](sim::Property property) {
     Path full = path;
     full.push_back(keyOf(property));
     return positionOf(full);
   };
   std::array<bool, sim::propertyCount> read{};
-  for (const Reading& reading : readings(scene.contact)) {
+  read[static_cast<std::size_t>(sim::Property::density)] = true;
+  for (const sim::Reading& reading : sim::readings(scene.contact)) {
     const sim::Need& need = reading.need;
     read[static_cast<std::size_t>(need.property)] = read[static_cast<std::size_t>(need.alternative)] = true;
     if (need.property != need.alternative && properties[need.property] && properties[need.alternative]) {
@@ -58,7 +73,7 @@ void checkTable(const Scene& scene, const Properties& properties, const Path& pa
     }
   }
   for (const sim::PropertyInfo& info : sim::propertyTable()) {
-    if (info.scope != sim::Scope::pair || !properties[info.property] || read[static_cast<std::size_t>(info.property)]) continue;
+    if (info.scope != scope || !properties[info.property] || read[static_cast<std::size_t>(info.property)]) continue;
     findings.warnings.push_back({at(info.property), fmt::format("None of the chosen contact laws reads '{}'.", info.key), "see [contact]"});
   }
 }
@@ -70,11 +85,14 @@ void checkContact(const Scene& scene, const PositionOf& positionOf, Findings& fi
     sim::lawIndex(scene.contact);
   } catch (const Error& error) {
     for (const Diagnostic& what : error.diagnostics())
-      findings.errors.push_back({positionOf({"contact", "rolling"}), what.message, what.hint});
+      findings.errors.push_back({positionOf({"contact"}), what.message, what.hint});
   }
-  for (const Reading& reading : readings(scene.contact)) checkNeed(scene, reading, positionOf, findings);
-  checkTable(scene, scene.pairs.all, {"pairs"}, positionOf, findings);
-  for (const Pair& pair : scene.pairs.special) checkTable(scene, pair.properties, {"pairs", pair.first, pair.second}, positionOf, findings);
+  for (const sim::Reading& reading : sim::readings(scene.contact)) checkNeed(scene, reading, positionOf, findings);
+  checkTable(scene, scene.pairs.all, sim::Scope::pair, {"pairs"}, positionOf, findings);
+  for (const Pair& pair : scene.pairs.special)
+    checkTable(scene, pair.properties, sim::Scope::pair, {"pairs", pair.first, pair.second}, positionOf, findings);
+  for (const Material& material : scene.materials)
+    checkTable(scene, material.properties, sim::Scope::material, {"materials", material.name}, positionOf, findings);
   for (const std::size_t i : grainMaterials(scene)) {
     const Material& material = scene.materials[i];
     if (material.properties[sim::Property::density]) continue;

@@ -35,8 +35,7 @@ void describeSimulation(Form& form, Simulation& s) {
 }
 
 std::string& lawOf(sim::ContactChoice& choice, std::string_view family) {
-  if (family == "normal") return choice.normal;
-  return family == "tangential" ? choice.tangential : choice.rolling;
+  return const_cast<std::string&>(sim::chosenIn(choice, family));
 }
 
 void describeContact(Form& form, sim::ContactChoice& choice) {
@@ -53,6 +52,7 @@ void describeContact(Form& form, sim::ContactChoice& choice) {
     if (index != noneOfThem) name = choices[index].word;
   }
   form.boolean({"tension", "May the normal force pull at the end of a contact, as a plain dashpot does?"}, choice.tension);
+  form.boolean({"rescale", "Does a Mindlin spring relax when its stiffness falls? Without, it creates energy (for comparison)."}, choice.rescale);
 }
 
 void describeProperties(Form& form, Properties& properties, sim::Scope scope) {

@@ -44,9 +44,7 @@ double expectedFromStreams(const sim::Model& model, double end) {
 std::string lawLines(const Scene& scene) {
   std::string text;
   for (const sim::LawFamily& family : sim::lawFamilies()) {
-    const std::string& chosen = family.key == "normal"       ? scene.contact.normal
-                                : family.key == "tangential" ? scene.contact.tangential
-                                                             : scene.contact.rolling;
+    const std::string& chosen = sim::chosenIn(scene.contact, family.key);
     for (const sim::LawInfo& law : family.laws) {
       if (law.name == chosen) text += fmt::format("  {:<13}{}: {}\n", fmt::format("{}", family.key), law.name, law.sentence);
     }

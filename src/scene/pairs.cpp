@@ -54,23 +54,11 @@ Properties pairProperties(const Scene& scene, std::size_t a, std::size_t b) {
     for (std::size_t p = 0; p < sim::propertyCount; ++p) {
       if (pair.properties.values[p]) result.values[p] = pair.properties.values[p];
     }
-    for (const Reading& reading : readings(scene.contact)) {
+    for (const sim::Reading& reading : sim::readings(scene.contact)) {
       const sim::Need& need = reading.need;
       if (need.property == need.alternative) continue;
       if (pair.properties[need.property] && !pair.properties[need.alternative]) result[need.alternative].reset();
       if (pair.properties[need.alternative] && !pair.properties[need.property]) result[need.property].reset();
-    }
-  }
-  return result;
-}
-
-std::vector<Reading> readings(const sim::ContactChoice& choice) {
-  std::vector<Reading> result;
-  for (const sim::LawFamily& family : sim::lawFamilies()) {
-    const std::string& chosen = family.key == "normal" ? choice.normal : family.key == "tangential" ? choice.tangential : choice.rolling;
-    for (const sim::LawInfo& law : family.laws) {
-      if (law.name != chosen) continue;
-      for (const sim::Need& need : law.reads) result.push_back({std::string(family.key), std::string(law.name), need});
     }
   }
   return result;

@@ -24,11 +24,4 @@ std::vector<std::pair<std::size_t, std::size_t>> touchingPairs(const Scene& scen
 /// (restitution here, a damping rate for all) as well.
 Properties pairProperties(const Scene& scene, std::size_t a, std::size_t b);
 
-/// What the chosen laws read, in the order of the law families.
-struct Reading {
-  std::string family, law;
-  sim::Need need;
-};
-std::vector<Reading> readings(const sim::ContactChoice& choice);
-
 }  // namespace tsubu::scene

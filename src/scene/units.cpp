@@ -88,6 +88,7 @@ constexpr NamedDimension named[] = {
     {dimension::stiffness, "a stiffness", "\"10 kN/m\"", "N/m"},
     {dimension::force, "a force", "\"3 N\"", "N"},
     {dimension::pressure, "a pressure", "\"1 GPa\"", "Pa"},
+    {{{-1, 0, 1, 0}}, "a time per length", "\"0.2 s/m\"", "s/m"},
     {{{2, 0, 0, 0}}, "an area", "\"2 cm^2\"", "m^2"},
     {{{3, 0, 0, 0}}, "a volume", "\"2 L\"", "m^3"},
     {{{2, 1, -2, 0}}, "an energy", "\"2 mJ\"", "J"},

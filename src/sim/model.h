@@ -24,6 +24,8 @@ struct ContactChoice {
   std::string tangential = "spring";
   std::string rolling = "none";
   bool tension = false;  ///< may the normal force pull at the end of a contact?
+  std::string twisting = "none";
+  bool rescale = true;   ///< T8: does a Mindlin spring relax with its stiffness? Without, it creates energy (for comparison)
 
   bool operator==(const ContactChoice&) const = default;
 };
@@ -98,6 +100,9 @@ struct Model {
   Watch watch;
   std::uint64_t seed = 1;
 };
+
+/// Where the stiffness depends on the overlap, the time step is chosen for this one, in smaller radii (S4).
+inline constexpr double expectedOverlap = 0.01;
 
 /// The largest step that is safe before any contact is known, and which pair of materials set it.
 struct TimeStepChoice {

@@ -142,14 +142,14 @@ ContactSummary Simulation::Impl::contactsNow() {
 /// the present alone and can be had at any time without touching the memory.
 struct Simulation::Impl::SeenContact {
   std::size_t i;
-  std::size_t j;         ///< `noGrain` for a wall
-  Contact contact;       ///< as far as normal laws and stored energies read it
-  std::size_t pair;      ///< in pairConstants
-  double weight;         ///< share of the law that acts
-  V3 tangential, rolling;
+  std::size_t j;           ///< `noGrain` for a wall
+  Contact contact;         ///< as far as normal laws and stored energies read it
+  const double* constants;
+  double weight;           ///< share of the law that acts
+  double memory[mostMemory];
 };
 
-template <class Law, class Visit>
+template <class Visit>
 void Simulation::Impl::visitContacts(Visit&& visit) const {
   const std::size_t n = model.materials.size();
   const auto see = [](const Vec3& d, double radiusSum, const Vec3& dv, double mass, double radius) {
@@ -160,13 +160,13 @@ void Simulation::Impl::visitContacts(Visit&& visit) const {
     c.overlap = radiusSum - distance;
     c.separationSpeed = dv.dot(normal);
     c.effectiveMass = mass;
+    c.inverseEffectiveMass = 1 / mass;
     c.effectiveRadius = radius;
+    c.inverseSpinInertia = 5 / (mass * radius * radius);
     return c;
   };
-  const auto remember = [](const double* memory, std::size_t stride, SeenContact& seen) {
-    constexpr int t = Law::Tangential::stateSize;
-    if constexpr (t > 0) seen.tangential = {memory[0], memory[stride], memory[2 * stride]};
-    if constexpr (Law::Rolling::stateSize > 0) seen.rolling = {memory[t * stride], memory[(t + 1) * stride], memory[(t + 2) * stride]};
+  const auto remember = [&](const double* memory, std::size_t stride, SeenContact& seen) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(traits.stateSize); ++k) seen.memory[k] = memory[k * stride];
   };
   for (const SlabPairs& slab : pairs.slabs()) {
     for (std::size_t k = 0; k < slab.i.size(); ++k) {
@@ -174,7 +174,7 @@ void Simulation::Impl::visitContacts(Visit&& visit) const {
       const GrainRow &a = state.rows[i], &b = state.rows[j];
       SeenContact seen{i, j, see(positionOf(a) - positionOf(b), a.radius + b.radius, Vec3(a.vx - b.vx, a.vy - b.vy, a.vz - b.vz),
                                  1 / (a.inverseMass + b.inverseMass), 1 / (a.inverseRadius + b.inverseRadius)),
-                       state.material[i] * n + state.material[j], 1, {}, {}};
+                       constants.of(state.material[i] * n + state.material[j]), 1, {}};
       if (!(seen.contact.overlap > 0)) continue;
       remember(slab.memory.data() + k, slab.stride, seen);
       visit(seen);
@@ -194,7 +194,7 @@ void Simulation::Impl::visitContacts(Visit&& visit) const {
         const Vec3 velocity = place.twist.at(place.pose.toWorld(contact.point));
         SeenContact seen{g, noGrain, see(contact.distance * (place.pose.rotation * contact.normal), row.radius,
                                          Vec3(row.vx, row.vy, row.vz) - velocity, mass, row.radius),
-                         state.material[g] * n + model.walls[group.wall].material, contact.weight, {}, {}};
+                         constants.of(state.material[g] * n + model.walls[group.wall].material), contact.weight, {}};
         const auto candidate = std::lower_bound(features.begin(), features.end(), contact.feature) - features.begin();
         remember(slab.candidates[static_cast<std::size_t>(group.first + candidate)].memory, 1, seen);
         visit(seen);
@@ -204,31 +204,26 @@ void Simulation::Impl::visitContacts(Visit&& visit) const {
 }
 
 void Simulation::Impl::addLoads(std::vector<double>& load) const {
-  auto add = [&]<class Law>() {
-    const auto* const constants = reinterpret_cast<const typename Law::Pair*>(pairConstants.data());
-    visitContacts<Law>([&](const SeenContact& seen) {
-      const double force = seen.weight * std::abs(Law::Normal::force(constants[seen.pair].normal, seen.contact, {model.timeStep, lead}).force);
-      load[seen.i] += force;
-      if (seen.j != noGrain) load[seen.j] += force;
-    });
-  };
-  visitLaw(law, add);
+  const LawFunctions& functions = lawFunctions(law);
+  visitContacts([&](SeenContact& seen) {
+    ContactEnergy energy{};
+    const ContactForce force = functions.evaluate(seen.constants, seen.contact, {model.timeStep, lead}, seen.memory, energy);
+    const double normal = seen.weight * std::abs(dot(force.force, seen.contact.n));
+    load[seen.i] += normal;
+    if (seen.j != noGrain) load[seen.j] += normal;
+  });
 }
 
 double Simulation::Impl::storedInContactsOf(const std::vector<char>& grains) const {
+  const LawFunctions& functions = lawFunctions(law);
   double energy = 0;
-  auto add = [&]<class Law>() {
-    const auto* const constants = reinterpret_cast<const typename Law::Pair*>(pairConstants.data());
-    visitContacts<Law>([&](const SeenContact& seen) {
-      if (!grains[seen.i] && (seen.j == noGrain || !grains[seen.j])) return;
-      const typename Law::Pair& pair = constants[seen.pair];
-      double stored = Law::Normal::force(pair.normal, seen.contact, {model.timeStep, lead}).energy;
-      if constexpr (Law::Tangential::stateSize > 0) stored += Law::Tangential::stored(pair.tangential, seen.tangential);
-      if constexpr (Law::Rolling::stateSize > 0) stored += Law::Rolling::stored(pair.rolling, seen.contact, seen.rolling);
-      energy += seen.weight * stored;
-    });
-  };
-  visitLaw(law, add);
+  visitContacts([&](SeenContact& seen) {
+    if (!grains[seen.i] && (seen.j == noGrain || !grains[seen.j])) return;
+    const double springs = functions.stored(seen.constants, seen.contact, {model.timeStep, lead}, seen.memory);
+    ContactEnergy now{};
+    functions.evaluate(seen.constants, seen.contact, {model.timeStep, lead}, seen.memory, now);
+    energy += seen.weight * (now.storedNormal + springs);
+  });
   return energy;
 }
 
@@ -263,7 +258,7 @@ void Simulation::Impl::fill(Snapshot& snapshot) {
 // Contacts in any order: the hash of each, keyed by its two ids and seen from the lower one, added up.
 std::uint64_t Simulation::Impl::contactHash() const {
   std::uint64_t sum = 0;
-  const auto c = static_cast<std::size_t>(stateSize);
+  const auto c = static_cast<std::size_t>(traits.stateSize);
   for (const SlabPairs& slab : pairs.slabs()) {
     for (std::size_t k = 0; k < slab.i.size() && c > 0; ++k) {
       std::uint64_t a = state.id[static_cast<std::size_t>(slab.i[k])], b = state.id[static_cast<std::size_t>(slab.j[k])];
@@ -275,7 +270,7 @@ std::uint64_t Simulation::Impl::contactHash() const {
       for (std::size_t component = 0; component < c; ++component) {
         const double value = slab.memory[component * slab.stride + k];
         any = any || value != 0;
-        hash.add(value == 0 ? 0.0 : sign * value);
+        hash.add(value == 0 ? 0.0 : (traits.odd >> component & 1U) ? sign * value : value);
       }
       if (any) sum += hash.value();
     }

@@ -6,14 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "sim/laws/catalogue.h"
 
 namespace tsubu::sim {
-
-LawTraits lawTraits(std::size_t law) {
-  auto traits = []<class Law>() { return LawTraits{Law::stateSize, Law::turns, Law::rolls}; };
-  return visitLaw(law, traits);
-}
 
 namespace {
 
@@ -43,48 +37,44 @@ std::vector<char> pairsThatMeet(const Model& model) {
 
 namespace {
 
-void checkNeeds(const Model& model, std::size_t a, std::size_t b, std::string_view family, std::string_view law, std::span<const Need> reads) {
-  const PropertyValues& values = model.pairs.at(a, b);
-  for (const Need& need : reads) {
-    if (need.optional || values.has(need.property) || values.has(need.alternative)) continue;
+bool has(const PairValues& values, Property property) {
+  if (infoOf(property).scope == Scope::pair) return values.pair.has(property);
+  return values.first.has(property) && values.second.has(property);
+}
+
+void checkNeeds(const Model& model, std::size_t a, std::size_t b, const PairValues& values) {
+  for (const Reading& reading : readings(model.contact)) {
+    const Need& need = reading.need;
+    if (need.optional || has(values, need.property) || has(values, need.alternative)) continue;
     const std::string either =
         need.alternative == need.property ? std::string() : fmt::format(" or {}", infoOf(need.alternative).key);
     throw Error(ErrorKind::scene, fmt::format("The pair {}–{} lacks {}{}, which the {} law '{}' reads.", model.materials[a].name,
-                                              model.materials[b].name, infoOf(need.property).key, either, family, law));
+                                              model.materials[b].name, infoOf(need.property).key, either, reading.family, reading.law));
   }
-}
-
-template <class Law>
-typename Law::Pair prepareOne(const Model& model, std::size_t a, std::size_t b) {
-  checkNeeds(model, a, b, "normal", Law::Normal::name, Law::Normal::reads);
-  checkNeeds(model, a, b, "tangential", Law::Tangential::name, Law::Tangential::reads);
-  checkNeeds(model, a, b, "rolling", Law::Rolling::name, Law::Rolling::reads);
-  return Law::prepare(model.pairs.at(a, b), model.contact.tension);
 }
 
 }  // namespace
 
-std::vector<unsigned char> preparePairs(const Model& model, std::size_t law) {
+PairConstants preparePairs(const Model& model, std::size_t law) {
   const std::size_t n = model.materials.size();
   const std::vector<char> meet = pairsThatMeet(model);
-  auto prepare = [&]<class Law>() {
-    using Pair = typename Law::Pair;
-    std::vector<unsigned char> bytes(std::max<std::size_t>(1, n * n) * sizeof(Pair), 0);
-    for (std::size_t a = 0; a < n; ++a) {
-      for (std::size_t b = 0; b < n; ++b) {
-        if (!meet[a * n + b]) continue;
-        const Pair pair = prepareOne<Law>(model, a, b);
-        std::memcpy(bytes.data() + (a * n + b) * sizeof(Pair), &pair, sizeof(Pair));
-      }
+  const LawFunctions& functions = lawFunctions(law);
+  // Kernels read four doubles at a time.
+  PairConstants constants{functions.constants, std::vector<double>(std::max<std::size_t>(1, n * n) * functions.constants + 4, 0.0)};
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = 0; b < n; ++b) {
+      if (!meet[a * n + b]) continue;
+      const PairValues values{model.pairs.at(a, b), model.materials[a].values, model.materials[b].values};
+      checkNeeds(model, a, b, values);
+      functions.prepare(values, model.contact.tension, model.contact.rescale, constants.values.data() + (a * n + b) * constants.size);
     }
-    return bytes;
-  };
-  return visitLaw(law, prepare);
+  }
+  return constants;
 }
 
-PairClasses classesOfPairs(const Model& model, const std::vector<unsigned char>& pairConstants) {
+PairClasses classesOfPairs(const Model& model, const PairConstants& constants) {
   const MaterialUse use = useOfMaterials(model);
-  const std::size_t n = model.materials.size(), size = pairConstants.size() / std::max<std::size_t>(1, n * n);
+  const std::size_t n = model.materials.size(), bytes = constants.size * sizeof(double);
   const auto classOf = [&](const std::vector<char>& partners) {
     PairClass found{true, 0};
     bool any = false;
@@ -92,21 +82,11 @@ PairClasses classesOfPairs(const Model& model, const std::vector<unsigned char>&
       if (!use.ofGrains[pair / n] || !partners[pair % n]) continue;
       if (!any) found.first = pair;
       any = true;
-      found.alike = found.alike && std::memcmp(pairConstants.data() + pair * size, pairConstants.data() + found.first * size, size) == 0;
+      found.alike = found.alike && std::memcmp(constants.of(pair), constants.of(found.first), bytes) == 0;
     }
     return found;
   };
   return {classOf(use.ofGrains), classOf(use.ofWalls)};
-}
-
-std::array<ContactMode, 3> contactModes(const Model& model, std::size_t law, std::size_t a, std::size_t b, double inverseMass) {
-  auto read = [&]<class Law>() -> std::array<ContactMode, 3> {
-    const typename Law::Pair pair = prepareOne<Law>(model, a, b);
-    const double damping = Law::Normal::damping(pair.normal, 1 / inverseMass);
-    return {ContactMode{Law::Normal::stiffness(pair.normal) * inverseMass, damping * inverseMass},
-            Law::Tangential::mode(pair.tangential, damping, inverseMass), Law::Rolling::mode(pair.rolling, inverseMass)};
-  };
-  return visitLaw(law, read);
 }
 
 }  // namespace tsubu::sim

@@ -2,11 +2,10 @@
 
 #include "sim/fields/drag.h"
 #include "sim/laws/catalogue.h"
-#include "sim/pair_constants.h"
 
 namespace tsubu::sim {
 
-bool grainsTurn(const Model& model) { return lawTraits(lawIndex(model.contact)).turns; }
+bool grainsTurn(const Model& model) { return lawFunctions(lawIndex(model.contact)).traits.turns; }
 
 std::vector<std::unique_ptr<ForcePass>> makePasses(const Model& model) {
   const bool turns = grainsTurn(model), verlet = model.integrator == Integrator::velocityVerlet;

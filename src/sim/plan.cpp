@@ -15,13 +15,15 @@ namespace tsubu::sim {
 
 Plan Simulation::plan(const Model& model) {
   const std::size_t law = lawIndex(model.contact);
-  const LawTraits traits = lawTraits(law);
+  const LawTraits& traits = lawFunctions(law).traits;
   const bool verlet = model.integrator == Integrator::velocityVerlet;
   Plan plan;
   const auto item = [&](bool modelled, std::string what) { (modelled ? plan.modelled : plan.notModelled).push_back(std::move(what)); };
   item(true, fmt::format("normal contact: {}{}", model.contact.normal, model.contact.tension ? ", with tension" : ""));
   item(traits.turns, traits.turns ? fmt::format("friction: {}", model.contact.tangential) : "friction");
-  item(traits.rolls, traits.rolls ? fmt::format("rolling resistance: {}", model.contact.rolling) : "rolling resistance");
+  const bool rolls = model.contact.rolling != "none", twists = model.contact.twisting != "none";
+  item(rolls, rolls ? fmt::format("rolling resistance: {}", model.contact.rolling) : "rolling resistance");
+  item(twists, twists ? fmt::format("twisting resistance: {}", model.contact.twisting) : "twisting resistance");
   item(grainsTurn(model), "rotation and orientation");
   item(strongestGravity(model.gravity, model.fields.gravity) > 0, model.fields.gravity.empty() ? "gravity" : "gravity that changes");
   item(model.fields.drag.has_value(), "drag");

@@ -15,14 +15,19 @@ enum class Scope { material, pair };
 
 enum class Property : std::size_t {
   density,
+  youngModulus,
+  poissonRatio,
   normalStiffness,
   tangentialStiffness,
   restitution,
   normalDampingRate,
   tangentialDampingRate,
+  tangentialDampingFactor,
   friction,
   rollingFriction,
   rollingDamping,
+  rollingViscosity,
+  twistingFriction,
   count
 };
 
@@ -56,6 +61,16 @@ class PropertyValues {
   std::array<double, propertyCount> values_;
 };
 
+/// What a law sees of two materials that meet: what belongs to the pair, and what belongs to each.
+struct PairValues {
+  const PropertyValues& pair;
+  const PropertyValues& first;
+  const PropertyValues& second;
+
+  double operator[](Property property) const { return pair[property]; }
+  bool has(Property property) const { return pair.has(property); }
+};
+
 /// What a law needs of a pair. A law reads `property`; where it is absent, `alternative` serves (equal to `property` when there
 /// is none); an optional need has a default that the law states in its header.
 struct Need {
@@ -66,5 +81,12 @@ struct Need {
 constexpr Need need(Property property) { return {property, property, false}; }
 constexpr Need needEither(Property property, Property alternative) { return {property, alternative, false}; }
 constexpr Need mayRead(Property property) { return {property, property, true}; }
+constexpr Need mayReadEither(Property property, Property alternative) { return {property, alternative, true}; }
+
+/// The tangential stiffness may be left out only where there is a constant normal one to take it from.
+constexpr Need sharpened(Need need, bool growingStiffness) {
+  if (growingStiffness && need.property == Property::tangentialStiffness) need.optional = false;
+  return need;
+}
 
 }  // namespace tsubu::sim

@@ -28,10 +28,10 @@ Simulation::Impl::Impl(Model given, int threads)
     : model(std::move(given)),
       team(threads),
       law(lawIndex(model.contact)),
-      stateSize(lawTraits(law).stateSize),
+      traits(lawFunctions(law).traits),
       gravity(model.gravity, model.fields.gravity),
-      pairs(stateSize),
-      walls(model.walls, stateSize, lawTraits(law).turns, lawTraits(law).rolls),
+      pairs(traits.stateSize, traits.odd),
+      walls(model.walls, traits),
       moving(wallsUnderLoad(model)),
       passes(makePasses(model)),
       stages(static_cast<std::size_t>(threads)) {
@@ -48,8 +48,8 @@ Simulation::Impl::Impl(Model given, int threads)
 }
 
 void Simulation::Impl::prepareLaws() {
-  pairConstants = preparePairs(model, law);
-  classes = classesOfPairs(model, pairConstants);
+  constants = preparePairs(model, law);
+  classes = classesOfPairs(model, constants);
   lead = model.integrator == Integrator::velocityVerlet ? 0.5 : 1.0;
   if (!(model.timeStep > 0)) throw Error(ErrorKind::scene, "The time step must be positive.");
   for (const Wall& wall : model.walls) {
@@ -92,10 +92,9 @@ void Simulation::Impl::prepareState() {
   chooseDomain();
 }
 
-PassContext Simulation::Impl::context(PairClass pairClass) {
-  const std::size_t size = pairConstants.size() / std::max<std::size_t>(1, model.materials.size() * model.materials.size());
-  const unsigned char* const constants = pairConstants.data() + (pairClass.alike ? pairClass.first * size : 0);
-  return {state.rows.data(), state.forces.data(), state.material.data(), model.materials.size(), constants, {model.timeStep, lead}};
+PassContext Simulation::Impl::context(PairClass pairClass, bool oneClass) {
+  return {state.rows.data(), state.forces.data(),           state.material.data(), model.materials.size(),
+          oneClass ? constants.of(pairClass.first) : constants.values.data(), {model.timeStep, lead}};
 }
 
 World Simulation::Impl::world() { return {model, state, slabs, pairs, team, gravity.now(), time(), {model.timeStep, lead}}; }
@@ -115,9 +114,9 @@ void Simulation::Impl::computeForces() {
   refreshLists();
 
   accountsKnown = model.ledger || steps % watchEvery == 0;
-  const PairKernel pairKernel = kernels().pairs(law, {classes.grains.alike, accountsKnown});
-  const WallKernel wallKernel = kernels().walls(law, {classes.walls.alike, accountsKnown});
-  const PassContext grainsWorld = context(classes.grains), wallsWorld = context(classes.walls);
+  const auto onPairs = pairKernel(law, {classes.grains.alike, accountsKnown});
+  const auto onWalls = wallKernel(law, {classes.walls.alike, accountsKnown});
+  const PassContext grainsWorld = context(classes.grains, onPairs.oneClass), wallsWorld = context(classes.walls, onWalls.oneClass);
   last.assign(static_cast<std::size_t>(slabs.count()), Accounts{});
   for (int parity = 0; parity < 2; ++parity) {
     team.run((slabs.count() + 1 - parity) / 2, [&](int task, int thread) {
@@ -125,9 +124,9 @@ void Simulation::Impl::computeForces() {
       const auto s = static_cast<std::size_t>(slab);
       SlabPairs& list = pairs.slabs()[s];
       Stage& stage = stages[static_cast<std::size_t>(thread)];
-      pairKernel(grainsWorld, {list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.data(), list.stride}, stage,
+      onPairs.kernel(grainsWorld, {list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.data(), list.stride}, stage,
                  last[s]);
-      walls.evaluateSlab(slab, wallsWorld, wallKernel, accountsKnown, stage, last[s]);
+      walls.evaluateSlab(slab, wallsWorld, onWalls.kernel, accountsKnown, stage, last[s]);
     });
   }
   if (model.ledger)

@@ -45,8 +45,8 @@ class Simulation::Impl {
   ThreadTeam team;
   State state;
   std::size_t law = 0;
-  int stateSize = 0;
-  std::vector<unsigned char> pairConstants;  ///< Law::Pair[materials²]
+  LawTraits traits{};
+  PairConstants constants;
   PairClasses classes{};
   double lead = 1;
   GravityClock gravity;
@@ -102,7 +102,7 @@ class Simulation::Impl {
   void refreshLists();
   void rebuildLists();
   bool outerListsHold();
-  PassContext context(PairClass pairClass);
+  PassContext context(PairClass pairClass, bool oneClass);
   World world();
   void move();
 
@@ -126,7 +126,7 @@ class Simulation::Impl {
   DeepestContact surveyContacts() const;
   static constexpr std::size_t noGrain = std::numeric_limits<std::size_t>::max();
   struct SeenContact;
-  template <class Law, class Visit>
+  template <class Visit>
   void visitContacts(Visit&& visit) const;
   double energyOf(std::size_t grain) const;
   /// J: in the springs of all contacts that one of the marked grains takes part in.

@@ -23,17 +23,16 @@ namespace {
 // (tests/verification/stability_test.cpp).
 constexpr double mostNeighbours = 8;
 
-std::vector<double> smallestMasses(const Model& model) {
-  std::vector<double> mass(model.materials.size(), std::numeric_limits<double>::infinity());
-  const auto meet = [&](std::uint16_t material, double radius) {
-    const double m = massOf(model.materials[material].values[Property::density], radius);
-    mass[material] = std::min(mass[material], m);
-  };
+// By material; infinite where there are no grains of it.
+std::vector<double> smallestRadii(const Model& model) {
+  std::vector<double> radius(model.materials.size(), std::numeric_limits<double>::infinity());
+  const auto meet = [&](std::uint16_t material, double r) { radius[material] = std::min(radius[material], r); };
   for (const Grain& grain : model.grains) meet(grain.material, grain.radius);
   for (const Stream& stream : model.streams) meet(stream.material, stream.radii.smallest());
-  return mass;
+  return radius;
 }
 
+// S4: a stiffness that depends on the overlap is taken at `expectedOverlap`.
 // S3: in a packing ω² and 2ζω are at most `mostNeighbours` times those of one contact. `rate`: what drag and damping add to 2ζω of a
 // grain by itself.
 double stableStepInPacking(ContactMode contact, bool verlet, bool alongNormal, double rate) {
@@ -75,12 +74,15 @@ double stableStep(ContactMode mode, bool verlet, bool alongNormal) {
 
 ContactMode stiffestContact(const Model& model, std::size_t law, std::size_t wall) {
   ContactMode stiffest;
-  const std::vector<double> mass = smallestMasses(model);
-  for (std::size_t a = 0; a < mass.size(); ++a) {
-    if (!std::isfinite(mass[a])) continue;
-    const ContactMode mode = contactModes(model, law, a, model.walls[wall].material, 1 / mass[a])[0];
-    stiffest.stiffness = std::max(stiffest.stiffness, mode.stiffness * mass[a]);
-    stiffest.damping = std::max(stiffest.damping, mode.damping * mass[a]);
+  const std::vector<double> radius = smallestRadii(model);
+  const PairConstants constants = preparePairs(model, law);
+  for (std::size_t a = 0; a < radius.size(); ++a) {
+    if (!std::isfinite(radius[a])) continue;
+    const double mass = massOf(model.materials[a].values[Property::density], radius[a]);
+    const double* const pair = constants.of(a * radius.size() + model.walls[wall].material);
+    const ContactMode mode = lawFunctions(law).modes(pair, expectedOverlap * radius[a], radius[a], 1 / mass)[0];
+    stiffest.stiffness = std::max(stiffest.stiffness, mode.stiffness * mass);
+    stiffest.damping = std::max(stiffest.damping, mode.damping * mass);
   }
   return stiffest;
 }
@@ -93,7 +95,8 @@ double stableStep(const MovingWall& wall, ContactMode contact, bool verlet) {
 TimeStepChoice chooseTimeStep(const Model& model) {
   const std::size_t law = lawIndex(model.contact), n = model.materials.size();
   const std::vector<char> meet = pairsThatMeet(model);
-  const std::vector<double> mass = smallestMasses(model);
+  const PairConstants constants = preparePairs(model, law);
+  const std::vector<double> radius = smallestRadii(model);
   const std::vector<DampingRates> damping = fastestDamping(model);
   const bool verlet = model.integrator == Integrator::velocityVerlet;
   std::vector<char> isWall(n, 0);
@@ -103,25 +106,29 @@ TimeStepChoice chooseTimeStep(const Model& model) {
     if (wall.body) inverseWallMass[wall.material] = std::max(inverseWallMass[wall.material], 1 / wall.body->mass);
   }
   TimeStepChoice choice{std::numeric_limits<double>::infinity(), {}};
+  const auto inverseMass = [&](std::size_t a) { return 1 / massOf(model.materials[a].values[Property::density], radius[a]); };
   const auto rateOf = [&](std::size_t a, std::size_t b, bool turning) {
     const double linear = std::max(damping[a].linear, damping[b].linear), rotary = std::max(damping[a].rotary, damping[b].rotary);
     return turning ? std::max(linear, rotary) : linear;
   };
-  const auto consider = [&](std::size_t a, std::size_t b, double inverseMasses, const std::string& what) {
-    const std::array<ContactMode, 3> modes = contactModes(model, law, a, b, inverseMasses);
+  const auto consider = [&](std::size_t a, std::size_t b, double inverseMasses, double effectiveRadius, double smallerRadius, const std::string& what) {
+    const auto modes = lawFunctions(law).modes(constants.of(a * n + b), expectedOverlap * smallerRadius, effectiveRadius, inverseMasses);
     for (std::size_t mode = 0; mode < modes.size(); ++mode) {
       const double limit = stableStepInPacking(modes[mode], verlet, mode == 0, rateOf(a, b, mode > 0));
-      constexpr std::array names{"stiffness", "tangential stiffness", "rolling stiffness"};
+      constexpr std::array names{"stiffness", "tangential stiffness", "rolling stiffness", "twisting stiffness"};
       if (limit < choice.limit) choice = {limit, fmt::format("{} of {}", names[mode], what)};
     }
   };
   for (std::size_t a = 0; a < n; ++a) {
-    if (!std::isfinite(mass[a])) continue;
+    if (!std::isfinite(radius[a])) continue;
     for (std::size_t b = 0; b < n; ++b) {
       if (!meet[a * n + b]) continue;
       const std::string names = fmt::format("{}–{}", model.materials[a].name, model.materials[b].name);
-      if (b >= a && std::isfinite(mass[b])) consider(a, b, 1 / mass[a] + 1 / mass[b], fmt::format("{}, smallest grains", names));
-      if (isWall[b]) consider(a, b, 1 / mass[a] + inverseWallMass[b], fmt::format("{} walls, smallest grains", names));
+      if (b >= a && std::isfinite(radius[b])) {
+        consider(a, b, inverseMass(a) + inverseMass(b), 1 / (1 / radius[a] + 1 / radius[b]), std::min(radius[a], radius[b]),
+                 fmt::format("{}, smallest grains", names));
+      }
+      if (isWall[b]) consider(a, b, inverseMass(a) + inverseWallMass[b], radius[a], radius[a], fmt::format("{} walls, smallest grains", names));
     }
     const double rate = std::max(damping[a].linear, damping[a].rotary);
     // Where drag alone allows hardly more than together with the stiffest contact, it is the drag that sets the step.

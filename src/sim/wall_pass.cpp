@@ -20,8 +20,7 @@ constexpr double leastDistance = 1e-9;
 
 }  // namespace
 
-WallPass::WallPass(const std::vector<Wall>& walls, int stateSize, bool turns, bool rolls)
-    : walls_(&walls), stateSize_(stateSize), turns_(turns), rolls_(rolls), places_(walls.size()) {
+WallPass::WallPass(const std::vector<Wall>& walls, const LawTraits& law) : walls_(&walls), law_(law), places_(walls.size()) {
   for (const Wall& wall : walls) loadOf_.push_back(wall.body ? static_cast<int>(loaded_++) : -1);
 }
 
@@ -176,7 +175,7 @@ void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, const PassContex
   bool anyTouched = false;
   for (std::int32_t c = group.first; c < group.last; ++c) anyTouched = anyTouched || slab.candidates[static_cast<std::size_t>(c)].touching;
   if (contacts.empty() && !anyTouched) return;
-  if (stateSize_ > 0 && anyTouched) handOver(surface, slab, group, contacts, rotation);
+  if (law_.stateSize > 0 && anyTouched) handOver(surface, slab, group, contacts, rotation);
 
   // Candidates and contacts both ascend by feature. A contact that has just ended goes through the kernel once more, out of reach, so
   // that its memory is cleared and what its spring held is booked.
@@ -219,7 +218,7 @@ void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, const PassContex
     s.smallerRadius[q] = row.radius;
     s.weight[q] = touches ? contacts[next].weight : 1;
     s.pairClass[q] = static_cast<std::int32_t>(context.material[group.grain] * context.materials + wall.material);
-    for (int component = 0; component < stateSize_; ++component) s.memory[component][q] = candidate.memory[component];
+    for (int component = 0; component < law_.stateSize; ++component) s.memory[component][q] = candidate.memory[component];
     candidate.touching = touches;
   }
 }
@@ -228,6 +227,7 @@ void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, const PassContex
 // their normals agree (at a right angle, where a second contact adds to the first, with nothing).
 void WallPass::handOver(const Surface& surface, SlabWalls& slab, const WallGroup& group, const WallContacts& contacts,
                         const Mat3& rotation) {
+  const auto isForce = [this](int component) { return (law_.odd >> component & 1U) != 0; };
   const auto touchesNow = [&](std::uint32_t feature) {
     return std::any_of(contacts.begin(), contacts.end(), [&](const WallContact& contact) { return contact.feature == feature; });
   };
@@ -247,10 +247,12 @@ void WallPass::handOver(const Surface& surface, SlabWalls& slab, const WallGroup
       if (k > kinship) kinship = k, giver = &other;
     }
     if (!giver) continue;
-    for (int component = 0; component < stateSize_; ++component) candidate.memory[component] = kinship * giver->memory[component];
+    for (int component = 0; component < law_.stateSize; ++component)
+      candidate.memory[component] = (isForce(component) ? kinship : 1) * giver->memory[component];
     if (touchesNow(giver->feature)) continue;
     // The giver has ended; what it keeps is let go.
-    for (int component = 0; component < stateSize_; ++component) giver->memory[component] *= std::sqrt(std::max(0.0, 1 - kinship * kinship));
+    for (int component = 0; component < law_.stateSize; ++component)
+      if (isForce(component)) giver->memory[component] *= std::sqrt(std::max(0.0, 1 - kinship * kinship));
   }
 }
 
@@ -261,12 +263,12 @@ void WallPass::flush(SlabWalls& slab, const PassContext& context, Batch& batch) 
   for (int q = 0; q < batch.count; ++q) {
     const auto k = static_cast<std::size_t>(q);
     WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(batch.candidate[k])];
-    for (int component = 0; component < stateSize_; ++component) candidate.memory[component] = s.memory[component][q];
+    for (int component = 0; component < law_.stateSize; ++component) candidate.memory[component] = s.memory[component][q];
     const double inverseRadius = context.rows[batch.grain[k]].inverseRadius;
     ForceRow& row = context.forces[batch.grain[k]];
     row.fx += s.fx[q], row.fy += s.fy[q], row.fz += s.fz[q];
-    if (turns_) row.qx += s.qx[q], row.qy += s.qy[q], row.qz += s.qz[q];
-    if (rolls_) row.qx -= s.mx[q] * inverseRadius, row.qy -= s.my[q] * inverseRadius, row.qz -= s.mz[q] * inverseRadius;
+    if (law_.turns) row.qx += s.qx[q], row.qy += s.qy[q], row.qz += s.qz[q];
+    if (law_.rolls) row.qx -= s.mx[q] * inverseRadius, row.qy -= s.my[q] * inverseRadius, row.qz -= s.mz[q] * inverseRadius;
     if (batch.load[k] >= 0) {
       WallLoad& load = slab.loads[static_cast<std::size_t>(batch.load[k])];
       load.force -= Vec3(s.fx[q], s.fy[q], s.fz[q]);
@@ -275,7 +277,7 @@ void WallPass::flush(SlabWalls& slab, const PassContext& context, Batch& batch) 
     }
     if (!batch.account) continue;
     double power = s.fx[q] * batch.wallVelocity[k].x() + s.fy[q] * batch.wallVelocity[k].y() + s.fz[q] * batch.wallVelocity[k].z();
-    if (rolls_) power += s.mx[q] * batch.wallSpin[k].x() + s.my[q] * batch.wallSpin[k].y() + s.mz[q] * batch.wallSpin[k].z();
+    if (law_.rolls) power += s.mx[q] * batch.wallSpin[k].x() + s.my[q] * batch.wallSpin[k].y() + s.mz[q] * batch.wallSpin[k].z();
     slab.lastWork += power * context.step.dt;
   }
   batch.count = 0;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/kernel/kernels.h"
+#include "sim/laws/catalogue.h"
 #include "sim/model.h"
 #include "sim/neighbours/slabs.h"
 #include "sim/state.h"
@@ -18,7 +19,7 @@ struct WallCandidate {
   std::uint32_t feature = 0;
   bool touching = false;     ///< in the last step
   Vec3 normal;               ///< of that contact, world
-  double memory[6] = {};
+  double memory[mostMemory] = {};
 };
 
 /// The candidates of one grain on one wall.
@@ -46,7 +47,7 @@ struct WallPlace {
 
 class WallPass {
  public:
-  WallPass(const std::vector<Wall>& walls, int stateSize, bool turns, bool rolls);
+  WallPass(const std::vector<Wall>& walls, const LawTraits& law);
 
   /// Places of all walls at time t, before the slabs are evaluated. Returns how far any wall may move against its place in the time dt.
   double moveTo(double t, double dt);
@@ -77,8 +78,7 @@ class WallPass {
   void flush(SlabWalls& slab, const PassContext& context, Batch& batch);
 
   const std::vector<Wall>* walls_;
-  int stateSize_;
-  bool turns_, rolls_;
+  LawTraits law_;
   std::vector<WallPlace> places_;
   std::vector<int> loadOf_;    // by wall: its place among those that move under load; −1: none of them
   std::size_t loaded_ = 0;

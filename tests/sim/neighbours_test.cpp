@@ -82,7 +82,7 @@ TEST(PairLists, HoldEveryNearPairOnceInOrder) {
     std::iota(place.begin(), place.end(), 0);
     CellGrid grid;
     grid.build(state.rows, skin);
-    PairLists pairs(3);
+    PairLists pairs(3, 0b111);
     pairs.build(state, slabs, grid, inner, place, team);
 
     std::set<std::pair<std::int32_t, std::int32_t>> listed, listedInner;

@@ -74,7 +74,7 @@ inline Snapshot look(Simulation& simulation) {
 /// How long a linear contact lasts that starts with overlap 0, s: half a period with tension, until the force is gone without.
 inline double contactDuration(double stiffness, double effectiveMass, double restitution, bool tension) {
   const double omega = std::sqrt(stiffness / effectiveMass);
-  const double zeta = dampingRatioLinear(restitution, tension);
+  const double zeta = dampingRatio(restitution, tension);
   if (tension) return pi / (omega * std::sqrt(1 - zeta * zeta));
   if (zeta == 0) return pi / omega;
   return -std::log(restitution) / (zeta * omega);  // e = exp(−ζωt_c): Schwager & Pöschel 2007

@@ -75,7 +75,7 @@ TEST(Restitution, ElasticCollisionKeepsItsEnergy) {
 // Note (B.5): x = (u/α) sin αt e^{−ηt/2m*} until t = π/α.
 TEST(LinearContact, FollowsTheDampedOscillator) {
   const double m1 = 3e-5, m2 = 1.1e-4, r1 = 1.3e-3, r2 = 2.2e-3, effective = m1 * m2 / (m1 + m2), e = 0.62;
-  const double zeta = dampingRatioLinear(e, true), omega = std::sqrt(stiffness / effective), alpha = omega * std::sqrt(1 - zeta * zeta);
+  const double zeta = dampingRatio(e, true), omega = std::sqrt(stiffness / effective), alpha = omega * std::sqrt(1 - zeta * zeta);
   const double dt = pi / alpha / 400;
   Scenario s;
   s.model.contact.tension = true;
@@ -111,7 +111,7 @@ TEST(LinearContact, TwoStackedSpheresBetweenPlates) {
   s.plane({0, 0, 0}, {0, 1, 0});
   s.plane({0, height, 0}, {0, -1, 0});
 
-  const auto damping = [&](double m) { return 2 * dampingRatioLinear(e, true) * std::sqrt(m * k); };
+  const auto damping = [&](double m) { return 2 * dampingRatio(e, true) * std::sqrt(m * k); };
   const double c1 = damping(m1), c2 = damping(m2), c12 = damping(m1 * m2 / (m1 + m2));
   Eigen::Matrix4d A;
   A << 0, 0, 1, 0,

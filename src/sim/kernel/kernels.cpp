@@ -50,6 +50,17 @@ const Kernels*& chosen() {
 
 const Kernels& kernels() { return *chosen(); }
 
+namespace {
+template <class Kernel>
+Chosen<Kernel> choose(Kernel (*Kernels::*pass)(std::size_t, PassKind), std::size_t law, PassKind kind) {
+  if (const Kernel own = (kernels().*pass)(law, kind)) return {own, kind.oneClass};
+  return {(kernels_portable.*pass)(law, {false, true}), false};
+}
+}  // namespace
+
+Chosen<PairKernel> pairKernel(std::size_t law, PassKind kind) { return choose(&Kernels::pairPass, law, kind); }
+Chosen<WallKernel> wallKernel(std::size_t law, PassKind kind) { return choose(&Kernels::wallPass, law, kind); }
+
 void useKernels(std::string_view isa) {
   std::vector<std::string> known;
   for (const Kernels& candidate : availableKernels()) {

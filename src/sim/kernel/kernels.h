@@ -27,7 +27,7 @@ struct PassContext {
   ForceRow* forces;
   const std::uint16_t* material;  ///< per grain
   std::size_t materials;
-  const void* pairs;              ///< Law::Pair[materials × materials]
+  const double* pairs;            ///< constants of materials × materials, or of the one class
   StepOf step;
 };
 
@@ -42,14 +42,22 @@ using PairKernel = void (*)(const PassContext&, const PairRange&, Stage&, Accoun
 /// Computes `count` wall contacts that lie in the stage, memory included.
 using WallKernel = void (*)(const PassContext&, int count, Stage&, Accounts&);
 
+/// The loops for one instruction set; nullptr where it has none of its own for a law and kind.
 struct Kernels {
   std::string_view isa;
-  PairKernel pairs(std::size_t law, PassKind kind) const { return pairPass(law, kind); }
-  WallKernel walls(std::size_t law, PassKind kind) const { return wallPass(law, kind); }
-
-  PairKernel (*pairPass)(std::size_t, PassKind);
-  WallKernel (*wallPass)(std::size_t, PassKind);
+  PairKernel (*pairPass)(std::size_t law, PassKind kind);
+  WallKernel (*wallPass)(std::size_t law, PassKind kind);
 };
+
+/// A loop and how it wants its constants.
+template <class Kernel>
+struct Chosen {
+  Kernel kernel;
+  bool oneClass;
+};
+/// The loop to use. Laws that are not common have only one, portable and for several classes.
+Chosen<PairKernel> pairKernel(std::size_t law, PassKind kind);
+Chosen<WallKernel> wallKernel(std::size_t law, PassKind kind);
 
 /// The kernels that this processor can run, the portable ones first, the widest last.
 const std::vector<Kernels>& availableKernels();

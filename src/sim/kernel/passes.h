@@ -6,6 +6,9 @@
 #include "sim/kernel/lanes.h"
 #include "sim/laws/catalogue.h"
 
+// Structs of doubles are filled from columns, nested braces left out.
+#pragma GCC diagnostic ignored "-Wmissing-braces"
+
 // The contacts of a chunk do not depend on each other: the compiler need not check. (Not `omp simd`: GCC would give every lane its
 // own copy of the small structs of a law and then fail to vectorise them.)
 #if defined(__clang__)
@@ -35,7 +38,7 @@ TSUBU_INLINE void gatherFour(const GrainRow* rows, const std::int32_t* is, const
     const double* const b = &rows[js[k]].x;
     x[k] = load4(a) + signs * load4(b);
     v[k] = load4(a + 4) + signs * load4(b + 4);
-    if constexpr (Law::turns) w[k] = load4(a + 8) + load4(b + 8);
+    if constexpr (Law::turns || Law::readsRadius) w[k] = load4(a + 8) + load4(b + 8);
   }
   transpose4(x[0], x[1], x[2], x[3]);
   store4(s.dx + q, x[0]);
@@ -47,14 +50,14 @@ TSUBU_INLINE void gatherFour(const GrainRow* rows, const std::int32_t* is, const
   store4(s.dvy + q, v[1]);
   store4(s.dvz + q, v[2]);
   store4(s.inverseMassSum + q, v[3]);
-  if constexpr (Law::turns) {
+  if constexpr (Law::turns || Law::readsRadius) {
     transpose4(w[0], w[1], w[2], w[3]);
     store4(s.sx + q, w[0]);
     store4(s.sy + q, w[1]);
     store4(s.sz + q, w[2]);
+    if constexpr (Law::readsRadius) store4(s.inverseRadiusSum + q, w[3]);
   }
   if constexpr (Law::rolls) {
-    store4(s.inverseRadiusSum + q, w[3]);
     D4 r[4];
     for (int k = 0; k < 4; ++k) r[k] = spinRow(rows[is[k]]) + signs * spinRow(rows[js[k]]);
     transpose4(r[0], r[1], r[2], r[3]);
@@ -88,19 +91,62 @@ void gather(const PassContext& context, const std::int32_t* is, const std::int32
       s.pairClass[q] = static_cast<std::int32_t>(context.material[is[q]] * context.materials + context.material[js[q]]);
 }
 
+/// Columns of the constants of each contact's pair of materials. Rows of constants are read four doubles at a time: the table has room
+/// for it behind its end.
+template <class Law>
+void gatherConstants(const PassContext& context, int count, Stage& s) {
+  constexpr int size = doublesIn<typename Law::Pair>;
+  for (int q = 0; q < count; q += 4) {
+    const double* row[4];
+    for (int k = 0; k < 4; ++k) row[k] = context.pairs + static_cast<std::size_t>(s.pairClass[q + k < count ? q + k : count - 1]) * size;
+    for (int c = 0; c < size; c += 4) {
+      D4 r[4];
+      for (int k = 0; k < 4; ++k) r[k] = load4(row[k] + c);
+      transpose4(r[0], r[1], r[2], r[3]);
+      for (int k = 0; k < 4 && c + k < size; ++k) store4(s.constants[c + k] + q, r[k]);
+    }
+  }
+}
+
+/// Law::Pair from columns. Part by part: an empty part has no column.
+template <class Law>
+TSUBU_INLINE typename Law::Pair pairFromColumns(const double (*constants)[chunkSize], int q) {
+  using N = typename Law::Normal::Pair;
+  using T = typename Law::Tangential::Pair;
+  using R = typename Law::Rolling::Pair;
+  using W = typename Law::Twisting::Pair;
+  constexpr int t = doublesIn<N>, r = t + doublesIn<T>, w = r + doublesIn<R>;
+  static_assert(w + doublesIn<W> == doublesIn<typename Law::Pair> && w + doublesIn<W> <= mostConstants);
+  return {fromColumns<N>(constants, 0, q), fromColumns<T>(constants, t, q), fromColumns<R>(constants, r, q), fromColumns<W>(constants, w, q)};
+}
+
+/// Law::Memory from columns and back.
+template <class Law>
+TSUBU_INLINE typename Law::Memory memoryFromColumns(double* const (&columns)[mostMemory], int q) {
+  using M = typename Law::Memory;
+  return {fromColumns<decltype(M::tangential)>(columns, 0, q), fromColumns<decltype(M::rolling)>(columns, Law::tangentialSize, q),
+          fromColumns<decltype(M::twisting)>(columns, Law::tangentialSize + Law::rollingSize, q)};
+}
+template <class Law>
+TSUBU_INLINE void memoryToColumns(typename Law::Memory& memory, bool kept, double* const (&columns)[mostMemory], int q) {
+  int c = 0;
+  const auto put = [&](double value) __attribute__((always_inline)) { columns[c++][q] = kept ? value : 0; };
+  memory.tangential.each(put);
+  memory.rolling.each(put);
+  memory.twisting.each(put);
+}
+
 /// The law on every contact of the chunk. `memory` points to the columns of the contacts' memory.
 template <class Law, bool oneClass, bool accounts, bool weighted>
 void compute(const PassContext& context, int count, Stage& s, double* const* memory) {
-  const auto* const pairs = static_cast<const typename Law::Pair*>(context.pairs);
-  const typename Law::Pair only = pairs[0];  // a copy that no store can change
+  typename Law::Pair only{};  // a copy that no store can change
+  if constexpr (oneClass)
+    std::memcpy(&only, context.pairs, sizeof only);
+  else
+    gatherConstants<Law>(context, count, s);
   const StepOf step = context.step;
-  constexpr int rollingAt = Law::Tangential::stateSize;
-  double* const t0 = memory[0];
-  double* const t1 = memory[1];
-  double* const t2 = memory[2];
-  double* const r0 = memory[rollingAt];
-  double* const r1 = memory[rollingAt + 1];
-  double* const r2 = memory[rollingAt + 2];
+  double* columns[mostMemory];
+  for (int k = 0; k < mostMemory; ++k) columns[k] = k < Law::stateSize ? memory[k] : nullptr;
   TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) {
     const V3 d{s.dx[q], s.dy[q], s.dz[q]};
@@ -108,8 +154,15 @@ void compute(const PassContext& context, int count, Stage& s, double* const* mem
     const bool touching = distance < s.radiusSum[q];
     // One division for three reciprocals: divisions and roots are what this loop waits for.
     const double safeDistance = larger(distance, tiny);
-    const double reciprocal = 1 / (safeDistance * s.radiusSum[q] * s.inverseMassSum[q]);
     Contact c;
+    double reciprocal = 1;
+    if constexpr (Law::readsRadius) {
+      const double all = 1 / (safeDistance * s.radiusSum[q] * s.inverseMassSum[q] * s.inverseRadiusSum[q]);
+      reciprocal = all * s.inverseRadiusSum[q];
+      c.effectiveRadius = all * (safeDistance * s.radiusSum[q] * s.inverseMassSum[q]);
+    } else {
+      reciprocal = 1 / (safeDistance * s.radiusSum[q] * s.inverseMassSum[q]);
+    }
     c.n = (reciprocal * s.radiusSum[q] * s.inverseMassSum[q]) * d;
     c.overlap = s.radiusSum[q] - distance;
     const V3 dv{s.dvx[q], s.dvy[q], s.dvz[q]};
@@ -128,16 +181,13 @@ void compute(const PassContext& context, int count, Stage& s, double* const* mem
     }
     if constexpr (Law::rolls) {
       c.relativeSpin = {s.rx[q], s.ry[q], s.rz[q]};
-      c.effectiveRadius = 1 / s.inverseRadiusSum[q];
       c.inverseSpinInertia = 2.5 * s.inverseInertiaSum[q];
     }
-    V3 tangential{0, 0, 0}, rolling{0, 0, 0};
-    if constexpr (Law::Tangential::stateSize > 0) tangential = {t0[q], t1[q], t2[q]};
-    if constexpr (Law::Rolling::stateSize > 0) rolling = {r0[q], r1[q], r2[q]};
-    const V3 tangentialBefore = tangential, rollingBefore = rolling;
+    typename Law::Memory held = memoryFromColumns<Law>(columns, q);
+    const typename Law::Memory before = held;
     ContactEnergy energy{};
-    const typename Law::Pair& pair = oneClass ? only : pairs[s.pairClass[q]];
-    const ContactForce result = Law::template evaluate<accounts>(pair, c, step, tangential, rolling, energy);
+    const typename Law::Pair pair = oneClass ? only : pairFromColumns<Law>(s.constants, q);
+    const ContactForce result = Law::template evaluate<accounts>(pair, c, step, held, energy);
     const double share = weighted ? s.weight[q] : 1.0;
     s.fx[q] = touching ? share * result.force.x : 0;
     s.fy[q] = touching ? share * result.force.y : 0;
@@ -152,21 +202,13 @@ void compute(const PassContext& context, int count, Stage& s, double* const* mem
       s.my[q] = touching ? share * result.moment.y : 0;
       s.mz[q] = touching ? share * result.moment.z : 0;
     }
-    if constexpr (Law::Tangential::stateSize > 0) {
-      t0[q] = touching ? tangential.x : 0;
-      t1[q] = touching ? tangential.y : 0;
-      t2[q] = touching ? tangential.z : 0;
-    }
-    if constexpr (Law::Rolling::stateSize > 0) {
-      r0[q] = touching ? rolling.x : 0;
-      r1[q] = touching ? rolling.y : 0;
-      r2[q] = touching ? rolling.z : 0;
-    }
+    memoryToColumns<Law>(held, touching, columns, q);
     if constexpr (accounts) {
       // What a spring still holds when its contact ends is let go: friction and rolling resistance keep it.
-      double released = 0, releasedRolling = 0;
-      if constexpr (Law::Tangential::stateSize > 0) released = Law::Tangential::stored(pair.tangential, tangentialBefore);
-      if constexpr (Law::Rolling::stateSize > 0) releasedRolling = Law::Rolling::stored(pair.rolling, c, rollingBefore);
+      const double released = Law::storedTangential(pair, before);
+      double releasedRolling = 0;
+      if constexpr (Law::stateSize > Law::tangentialSize)
+        releasedRolling = Law::storedRolling(pair, c, Law::Normal::force(pair.normal, c, step).stiffness, before);
       s.account[Accounts::storedNormal][q] = touching ? share * energy.storedNormal : 0;
       s.account[Accounts::storedTangential][q] = touching ? share * energy.storedTangential : 0;
       s.account[Accounts::storedRolling][q] = touching ? share * energy.storedRolling : 0;
@@ -245,7 +287,7 @@ template <class Law, bool oneClass, bool accounts>
 void passPairs(const PassContext& context, const PairRange& range, Stage& stage, Accounts& sums) {
   for (std::int64_t first = 0; first < range.count; first += chunkSize) {
     const int count = static_cast<int>(range.count - first < chunkSize ? range.count - first : chunkSize);
-    double* memory[6] = {};
+    double* memory[mostMemory] = {};
     for (int c = 0; c < Law::stateSize; ++c) memory[c] = range.memory + static_cast<std::size_t>(c) * range.stride + first;
     gather<Law, oneClass, accounts>(context, range.i + first, range.j + first, count, stage);
     compute<Law, oneClass, accounts, false>(context, count, stage, memory);
@@ -256,25 +298,39 @@ void passPairs(const PassContext& context, const PairRange& range, Stage& stage,
 
 template <class Law, bool oneClass, bool accounts>
 void passWalls(const PassContext& context, int count, Stage& stage, Accounts& sums) {
-  double* memory[6] = {stage.memory[0], stage.memory[1], stage.memory[2], stage.memory[3], stage.memory[4], stage.memory[5]};
+  double* memory[mostMemory];
+  for (int c = 0; c < mostMemory; ++c) memory[c] = stage.memory[c];
   compute<Law, oneClass, accounts, true>(context, count, stage, memory);
   if constexpr (accounts) addAccounts(count, stage, sums);
 }
 
+// Laws that are not common are compiled once, for any processor and any number of classes: they are there for comparison.
+template <class Law, bool oneClass, bool accounts>
+inline constexpr bool hasKernel = objection<Law>.empty() && (Law::common || (TSUBU_EVERY_LAW && !oneClass && accounts));
+
+template <bool oneClass, bool accounts>
+constexpr auto pairTable = tableOf(ContactLaws{}, []<class Law>() -> PairKernel {
+  if constexpr (hasKernel<Law, oneClass, accounts>)
+    return &passPairs<Law, oneClass, accounts>;
+  else
+    return nullptr;
+});
+template <bool oneClass, bool accounts>
+constexpr auto wallTable = tableOf(ContactLaws{}, []<class Law>() -> WallKernel {
+  if constexpr (hasKernel<Law, oneClass, accounts>)
+    return &passWalls<Law, oneClass, accounts>;
+  else
+    return nullptr;
+});
+
 PairKernel pairPassFor(std::size_t law, PassKind kind) {
-  auto pick = [kind]<class Law>() -> PairKernel {
-    if (kind.oneClass) return kind.accounts ? &passPairs<Law, true, true> : &passPairs<Law, true, false>;
-    return kind.accounts ? &passPairs<Law, false, true> : &passPairs<Law, false, false>;
-  };
-  return visitLaw(law, pick);
+  if (kind.oneClass) return kind.accounts ? pairTable<true, true>[law] : pairTable<true, false>[law];
+  return kind.accounts ? pairTable<false, true>[law] : pairTable<false, false>[law];
 }
 
 WallKernel wallPassFor(std::size_t law, PassKind kind) {
-  auto pick = [kind]<class Law>() -> WallKernel {
-    if (kind.oneClass) return kind.accounts ? &passWalls<Law, true, true> : &passWalls<Law, true, false>;
-    return kind.accounts ? &passWalls<Law, false, true> : &passWalls<Law, false, false>;
-  };
-  return visitLaw(law, pick);
+  if (kind.oneClass) return kind.accounts ? wallTable<true, true>[law] : wallTable<true, false>[law];
+  return kind.accounts ? wallTable<false, true>[law] : wallTable<false, false>[law];
 }
 
 }  // namespace

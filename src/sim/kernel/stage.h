@@ -4,9 +4,14 @@
 
 #include <cstdint>
 
+#include "sim/laws/memory.h"
+
 namespace tsubu::sim {
 
 inline constexpr int chunkSize = 128;
+
+/// Most doubles that any law keeps for a pair of materials.
+inline constexpr int mostConstants = 16;
 
 /// Column by column, one entry per contact of the chunk.
 struct alignas(64) Stage {
@@ -18,13 +23,15 @@ struct alignas(64) Stage {
   // In, for laws with friction.
   Column sx, sy, sz;        // r_i ω_i + r_j ω_j
   Column ox, oy, oz;        // walls: the mean spin ½(ω_i + Ω)
+  Column inverseRadiusSum;  // 1/r_i + 1/r_j, for laws that read R*
   // In, for rolling laws.
   Column rx, ry, rz;        // ω_i − ω_j
-  Column inverseRadiusSum;   // 1/r_i + 1/r_j
   Column inverseInertiaSum;  // 1/(m_i r_i²) + 1/(m_j r_j²)
   // In, when watched: the smaller radius. In, for walls: the share of a face in a contact that several faces carry.
   Column smallerRadius, weight;
-  std::int32_t pairClass[chunkSize];  // row × column of the materials; only when there is more than one class
+  // In, when there is more than one class of pairs: row × column of the materials, and the constants of that pair.
+  std::int32_t pairClass[chunkSize];
+  Column constants[mostConstants];
 
   // Out: force on i, couple (same on both), moment on i.
   Column fx, fy, fz, qx, qy, qz, mx, my, mz;
@@ -32,7 +39,7 @@ struct alignas(64) Stage {
   Column account[8];
 
   // Memory of wall contacts, gathered here; pairs are read in place.
-  Column memory[6];
+  Column memory[mostMemory];
 };
 
 /// What the ledger takes from a pass. Eight lanes, whatever the width of the vectors: the order of the sums is fixed.

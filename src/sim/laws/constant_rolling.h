@@ -19,17 +19,18 @@ struct ConstantRolling {
   static constexpr std::string_view name = "constant";
   static constexpr std::string_view sentence = "Constant torque against the relative spin (R1, R2); no memory, so a pile creeps.";
   static constexpr std::array reads{need(Property::rollingFriction)};
-  static constexpr int stateSize = 0;
-  static constexpr bool acts = true;
+  static constexpr bool acts = true, common = false;
+  template <bool growing>
+  using Memory = NoMemory<Family::rolling>;
 
   struct Pair {
     double rollingFriction;  // μ_r
   };
-  static Pair prepare(const PropertyValues& values, double) { return {values[Property::rollingFriction]}; }
+  static Pair prepare(const PairValues& values) { return {values[Property::rollingFriction]}; }
   /// Bounded by R2 in any step.
-  static ContactMode mode(const Pair&, double) { return {}; }
+  static ContactMode mode(const Pair&, double, double) { return {}; }
 
-  TSUBU_LAW RollingMoment moment(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, V3&) {
+  TSUBU_LAW RollingMoment moment(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, NoMemory<Family::rolling>&) {
     const double spin = norm(c.relativeSpin);
     const double limit = p.rollingFriction * c.effectiveRadius * std::abs(normal.force);
     const double stop = spin / (c.inverseSpinInertia * step.dt);

@@ -21,20 +21,20 @@ double exponentWithoutTension(double zeta) {
 
 }  // namespace
 
-double restitutionLinear(double zeta, bool tension) {
+double restitutionOf(double zeta, bool tension) {
   if (!tension) return std::exp(-exponentWithoutTension(zeta));
   return zeta < 1 ? std::exp(-pi * zeta / std::sqrt(1 - zeta * zeta)) : 0.0;
 }
 
-double dampingRatioLinear(double restitution, bool tension) {
+double dampingRatio(double restitution, bool tension) {
   if (restitution >= 1) return 0;
   const double l = -std::log(restitution);
   if (tension) return l / std::sqrt(pi * pi + l * l);
   double low = 0, high = 1;
-  while (restitutionLinear(high, false) > restitution) high *= 2;
+  while (restitutionOf(high, false) > restitution) high *= 2;
   for (int i = 0; i < 200; ++i) {
     const double middle = 0.5 * (low + high);
-    (restitutionLinear(middle, false) > restitution ? low : high) = middle;
+    (restitutionOf(middle, false) > restitution ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }

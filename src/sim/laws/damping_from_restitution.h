@@ -3,7 +3,7 @@
 
 namespace tsubu::sim {
 
-/// N3: the damping ratio ζ = η/(2√(m* k)) of a linear contact that gives restitution e.
+/// N3: the damping ratio ζ = η/(2√(m* k)) of a linear contact that gives restitution e, and that of a Hertz contact (N7).
 ///
 /// With tension the contact lasts half a period and e = exp(−πζ/√(1−ζ²)). Without, it ends when the force vanishes, and (Schwager
 /// & Pöschel 2007, Granular Matter 9, 465), with ω = √|1−ζ²|:
@@ -11,9 +11,9 @@ namespace tsubu::sim {
 ///   1/√2 ≤ ζ < 1   e = exp[−(ζ/ω) arctan(−2ζω/(ω²−ζ²))]
 ///   ζ > 1          e = exp[−(ζ/ω) ln((ζ+ω)/(ζ−ω))]
 /// inverted by bisection. e in (0, 1]; 1 gives exactly 0.
-double dampingRatioLinear(double restitution, bool tension);
+double dampingRatio(double restitution, bool tension);
 
 /// The restitution that a damping ratio gives, by the same relations.
-double restitutionLinear(double dampingRatio, bool tension);
+double restitutionOf(double zeta, bool tension);
 
 }  // namespace tsubu::sim

@@ -8,7 +8,7 @@
 //   η_n  damping, kg/s                      v_n  separation speed, m/s
 //
 // Damping from the restitution coefficient e (damping_from_restitution.h):
-//   N3   η_n = 2 β̂(e) √(m* k_n)    with β̂ the damping ratio that gives e, with tension or without
+//   N3   η_n = 2 ζ(e) √(m* k_n)    with ζ the damping ratio that gives e, with tension or without
 // or from a rate: N4  η_n = m* γ_n. In the steps in which a contact begins or ends the dashpot sees N5 (normal.h).
 //
 // Source: Cundall & Strack 1979; the damped oscillator of a contact, with N3 inverted for both ends of a contact.
@@ -29,28 +29,32 @@ struct LinearNormal {
   static constexpr std::string_view name = "linear";
   static constexpr std::string_view sentence = "Linear spring and dashpot (N1): stiffness independent of overlap and radius.";
   static constexpr std::array reads{need(Property::normalStiffness), needEither(Property::restitution, Property::normalDampingRate)};
+  static constexpr bool growing = false;  ///< does the stiffness depend on the overlap?
+  static constexpr bool common = true;
 
   struct Pair {
     double stiffness;             // k_n
+    double perRootStiffness;      // 1/√k_n
     double dampingPerRootMass;    // η_n/√m*, from restitution
     double dampingPerMass;        // η_n/m*, from a rate
     double least;                 // smallest force: 0, or −∞ with tension
   };
 
-  static Pair prepare(const PropertyValues& values, bool tension) {
+  static Pair prepare(const PairValues& values, bool tension) {
     Pair p{};
     p.stiffness = values[Property::normalStiffness];
+    p.perRootStiffness = 1 / std::sqrt(p.stiffness);
     if (values.has(Property::normalDampingRate))
       p.dampingPerMass = values[Property::normalDampingRate];
     else
-      p.dampingPerRootMass = 2 * dampingRatioLinear(values[Property::restitution], tension) * std::sqrt(p.stiffness);
+      p.dampingPerRootMass = 2 * dampingRatio(values[Property::restitution], tension) * std::sqrt(p.stiffness);
     p.least = tension ? -std::numeric_limits<double>::infinity() : 0.0;
     return p;
   }
 
-  /// Largest stiffness of the contact (for the time step), N/m, and its damping ratio for an effective mass.
-  static double stiffness(const Pair& p) { return p.stiffness; }
-  static double damping(const Pair& p, double effectiveMass) {
+  /// For the time step: stiffness, N/m, and damping, kg/s, at an overlap (m) of grains with R* and m*.
+  static double stiffness(const Pair& p, double, double) { return p.stiffness; }
+  static double damping(const Pair& p, double effectiveMass, double) {
     return p.dampingPerRootMass * std::sqrt(effectiveMass) + p.dampingPerMass * effectiveMass;
   }
 
@@ -59,7 +63,7 @@ struct LinearNormal {
     if (p.dampingPerRootMass != 0) damping += p.dampingPerRootMass * std::sqrt(c.effectiveMass);
     const double elastic = p.stiffness * c.overlap;
     const double force = larger(elastic - damping * sampledSpeed(c, step), p.least);
-    return {force, elastic, 0.5 * elastic * c.overlap, p.stiffness, damping};
+    return {force, elastic, 0.5 * elastic * c.overlap, p.stiffness, damping, damping * p.perRootStiffness};
   }
 };
 

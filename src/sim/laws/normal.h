@@ -10,8 +10,9 @@ struct NormalForce {
   double force;      ///< F_n, N; positive pushes apart
   double elastic;    ///< the part that is stored, N
   double energy;     ///< stored, J
-  double stiffness;  ///< dF/dδ at this overlap, N/m
+  double stiffness;  ///< k_n = dF/dδ at this overlap, N/m
   double damping;    ///< η_n, kg/s
+  double dampingPerRootStiffness;  ///< η_n/√k_n, finite also where both vanish
 };
 
 /// N5: the separation speed that a dashpot is to see in this step. A dashpot's force jumps when a contact begins (and, with tension,

@@ -17,11 +17,12 @@ struct FreeRolling {
   static constexpr std::string_view name = "none";
   static constexpr std::string_view sentence = "Grains roll freely.";
   static constexpr std::array<Need, 0> reads{};
-  static constexpr int stateSize = 0;
-  static constexpr bool acts = false;
+  static constexpr bool acts = false, common = true;
+  template <bool growing>
+  using Memory = NoMemory<Family::rolling>;
   struct Pair {};
-  static Pair prepare(const PropertyValues&, double) { return {}; }
-  static ContactMode mode(const Pair&, double) { return {}; }
+  static Pair prepare(const PairValues&) { return {}; }
+  static ContactMode mode(const Pair&, double, double) { return {}; }
 };
 
 }  // namespace tsubu::sim

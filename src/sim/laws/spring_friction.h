@@ -4,11 +4,11 @@
 //   T1   F_t = −k_t δ_t − η_t v_t
 //   T2   |F_t| ≤ μ |F_n|; beyond it spring and dashpot are cut back by the same factor, so that together they are the limit
 //   T3   δ_t is carried with the contact: turned with n and with a mean spin about n, kept tangential at unchanged length
-//   T4   η_t = η_n √(2 k_t/(7 k_n)): the damping ratio of the normal contact, for a mass of 2/7 m* (a sphere turns as it slips);
-//        or η_t = m* γ_t from a rate
+//   T4   η_t = f η_n √(k_t/k_n): with f = √(2/7) the damping ratio of the normal contact, for a mass of 2/7 m* (a sphere turns as it
+//        slips); or η_t = m* γ_t from a rate
 //
-//   k_t  tangential stiffness, N/m (2/7 k_n when absent)      v_t  slip velocity, m/s
-//   μ    friction coefficient                                  δ_t  tangential displacement, m
+//   k_t  tangential stiffness, N/m (2/7 k_n when absent and k_n is a constant)      v_t  slip velocity, m/s
+//   μ    friction coefficient                                                       δ_t  tangential displacement, m
 //
 // The memory is k_t δ_t in N. It is advanced with the slip of a whole step and read at `lead` of a step, so that in velocity Verlet
 // the spring's work over a step is exactly the change of its energy: a sticking contact leaks nothing (docs/physics.md, T5). In
@@ -19,64 +19,133 @@
 // (2008) 235) keeps the dashpot whole and gives the spring the rest, limit − η_t v_t; where the dashpot alone exceeds the limit, that
 // charges a spring that pushes along the slip, with energy that nobody spent. Steady sliding below it ends in the same state.
 //
-// Source: Cundall & Strack 1979; cutting back the spring at the limit after Luding. Proven by tests/sim/laws/spring_friction_test.cpp.
+// Three laws share the formula: `spring` (k_t a constant), `frozen_spring` (the spring is not cut back but stays as it is while the
+// contact slides: where the load falls, a spring that pushes the grain along gives energy and keeps it), `mindlin` (k_t follows the overlap).
+//   T7   k_t = 8 G* √(R* δ) = (4 G*/E*) S,   1/G* = (2−ν_i)/G_i + (2−ν_j)/G_j,   G = E/(2(1+ν))
+//   T8   what becomes of a stretched spring whose stiffness changes: memory.h
+//
+// Source: Cundall & Strack 1979; cutting back the spring at the limit after Luding; Mindlin 1949, with the rescaling of Thornton,
+// Cummins & Cleary, Powder Technology 210 (2011) 189. Proven by tests/sim/laws/spring_friction_test.cpp.
 
+#include "sim/laws/hertz_normal.h"
 #include "sim/laws/tangential.h"
 
 namespace tsubu::sim {
 
-struct SpringFriction {
-  static constexpr std::string_view name = "spring";
-  static constexpr std::string_view sentence = "Coulomb friction with a spring that remembers (T1–T4): grains stick, then slide.";
-  static constexpr std::array reads{need(Property::friction), mayRead(Property::tangentialStiffness),
-                                    mayRead(Property::tangentialDampingRate)};
-  static constexpr int stateSize = 3;
-  static constexpr bool acts = true;
+enum class SpringStiffness { constant, followsNormal };
+enum class SlidingSpring { cutBack, frozen };
+
+template <SpringStiffness kind, SlidingSpring sliding>
+struct SpringLaw {
+  static constexpr bool follows = kind == SpringStiffness::followsNormal;
+  static constexpr bool acts = true, needsGrowing = follows, passive = sliding == SlidingSpring::cutBack;
+  template <bool>
+  using Memory = std::conditional_t<follows, GrowingVectorMemory, VectorMemory>;
 
   struct Pair {
-    double stiffness;         // k_t
-    double half;              // 1/(2 k_t), or 0 without a spring
-    double friction;          // μ
-    double dampingOfNormal;   // η_t/η_n
-    double dampingPerMass;    // η_t/m*
+    double stiffness;       // k_t, or k_t/k_n where it follows
+    double half;            // 1/(2 k_t), or 0 without a spring
+    double friction;        // μ
+    double damping;         // η_t √k_n/η_n, or η_t/η_n where it follows
+    double dampingPerMass;  // η_t/m*
+    double rescales;        // T8: 1, or 0 for the demonstration of what goes wrong
   };
 
-  static Pair prepare(const PropertyValues& values, double normalStiffness) {
+  static Pair prepare(const PairValues& values, double normalStiffness, bool rescales) {
     Pair p{};
-    p.stiffness = values.valueOr(Property::tangentialStiffness, 2.0 / 7.0 * normalStiffness);
+    if constexpr (follows)
+      p.stiffness = 4 * effectiveShear(values) / effectiveModulus(values);
+    else
+      p.stiffness = values.pair.valueOr(Property::tangentialStiffness, 2.0 / 7.0 * normalStiffness);
     p.half = p.stiffness > 0 ? 0.5 / p.stiffness : 0;
     p.friction = values[Property::friction];
     if (values.has(Property::tangentialDampingRate))
       p.dampingPerMass = values[Property::tangentialDampingRate];
     else
-      p.dampingOfNormal = std::sqrt(p.stiffness / (3.5 * normalStiffness));
+      p.damping = values.pair.valueOr(Property::tangentialDampingFactor, std::sqrt(2.0 / 7.0)) * std::sqrt(p.stiffness);
+    p.rescales = rescales ? 1 : 0;
     return p;
   }
 
-  static double stiffness(const Pair& p) { return p.stiffness; }
   /// A sphere's rotation makes 7/2 of a tangential spring: 1/m + r²/I.
-  static ContactMode mode(const Pair& p, double normalDamping, double inverseMass) {
-    return {3.5 * p.stiffness * inverseMass, 3.5 * (p.dampingOfNormal * normalDamping * inverseMass + p.dampingPerMass)};
+  static ContactMode mode(const Pair& p, double normalStiffness, double normalDamping, double inverseMass) {
+    const double k = follows ? p.stiffness * normalStiffness : p.stiffness;
+    const double damping = follows ? p.damping * normalDamping : p.damping * normalDamping / std::sqrt(normalStiffness);
+    return {3.5 * k * inverseMass, 3.5 * (damping * inverseMass + p.dampingPerMass)};
   }
 
   /// Energy that a memory holds, J.
-  TSUBU_LAW double stored(const Pair& p, V3 memory) { return p.half * norm2(memory); }
+  template <class M>
+  TSUBU_LAW double stored(const Pair& p, const M& memory) {
+    if constexpr (follows)
+      return 0.5 * norm2(memory.spring) / larger(memory.stiffness, tiny);
+    else
+      return p.half * norm2(memory.spring);
+  }
 
-  TSUBU_LAW TangentialForce force(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, V3& memory) {
-    const double own = p.dampingOfNormal * normal.damping + p.dampingPerMass * c.effectiveMass;
-    const double damping = larger(own, p.stiffness * quieting(3.5 * p.stiffness * c.inverseEffectiveMass, step));
-    const V3 before = carried(memory, c.n, c.frameAngle);
-    const V3 gain = (p.stiffness * step.dt) * c.slip;
+  template <class M>
+  TSUBU_LAW TangentialForce force(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, M& memory) {
+    double k = p.stiffness, own = p.dampingPerMass * c.effectiveMass, half = p.half, storedBefore = 0, ease = 1;
+    if constexpr (follows) {
+      k = p.stiffness * normal.stiffness;
+      own += p.damping * normal.damping;
+      half = 0.5 / larger(k, tiny);
+      const Eased e = eased(memory, k, p.rescales);
+      ease = e.factor;
+      storedBefore = e.before;
+    } else {
+      own += p.damping * normal.dampingPerRootStiffness;
+    }
+    const double damping = larger(own, k * quieting(3.5 * k * c.inverseEffectiveMass, step));
+    const V3 before = ease * carried(memory.spring, c.n, c.frameAngle);
+    if constexpr (!follows) storedBefore = half * norm2(before);
+    const V3 gain = (k * step.dt) * c.slip;
     const V3 trial = before + step.lead * gain + damping * c.slip;
     const double limit = p.friction * std::abs(normal.force);
     const double size = norm(trial);
-    const double keep = size > limit ? limit / larger(size, tiny) : 1.0;
+    const bool slides = size > limit;
+    const double keep = slides ? limit / larger(size, tiny) : 1.0;
     const V3 force = -keep * trial;
-    memory = keep * (before + gain);
-    const double storedBefore = stored(p, before), storedAfter = stored(p, memory);
+    if constexpr (sliding == SlidingSpring::frozen)
+      memory.spring = select(slides, before, before + gain);
+    else
+      memory.spring = keep * (before + gain);
+    setStiffness(memory, k);
+    const double storedAfter = half * norm2(memory.spring);
     const double springWork = keep * dot(before + 0.5 * gain, c.slip) * step.dt;
     return {force, storedBefore, storedAfter, keep * damping * norm2(c.slip) * step.dt, springWork - (storedAfter - storedBefore)};
   }
+
+ private:
+  static double effectiveShear(const PairValues& values) {
+    const auto compliance = [](double young, double poisson) { return (2 - poisson) * 2 * (1 + poisson) / young; };
+    return 1 / (compliance(values.first[Property::youngModulus], values.first[Property::poissonRatio]) +
+                compliance(values.second[Property::youngModulus], values.second[Property::poissonRatio]));
+  }
+};
+
+struct SpringFriction : SpringLaw<SpringStiffness::constant, SlidingSpring::cutBack> {
+  static constexpr std::string_view name = "spring";
+  static constexpr std::string_view sentence = "Coulomb friction with a spring that remembers (T1–T4): grains stick, then slide.";
+  static constexpr std::array reads{need(Property::friction), mayRead(Property::tangentialStiffness),
+                                    mayReadEither(Property::tangentialDampingRate, Property::tangentialDampingFactor)};
+  static constexpr bool common = true;
+};
+
+struct FrozenSpringFriction : SpringLaw<SpringStiffness::constant, SlidingSpring::frozen> {
+  static constexpr std::string_view name = "frozen_spring";
+  static constexpr std::string_view sentence =
+      "The same, but the spring stays as it was while the contact slides: it jumps when sliding turns (for comparison).";
+  static constexpr std::array reads = SpringFriction::reads;
+  static constexpr bool common = false;
+};
+
+struct MindlinFriction : SpringLaw<SpringStiffness::followsNormal, SlidingSpring::cutBack> {
+  static constexpr std::string_view name = "mindlin";
+  static constexpr std::string_view sentence = "Coulomb friction with Mindlin's spring, whose stiffness follows the overlap (T7, T8); for hertz.";
+  static constexpr std::array reads{need(Property::friction), need(Property::youngModulus), need(Property::poissonRatio),
+                                    mayReadEither(Property::tangentialDampingRate, Property::tangentialDampingFactor)};
+  static constexpr bool common = true;
 };
 
 }  // namespace tsubu::sim

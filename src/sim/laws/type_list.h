@@ -1,6 +1,7 @@
 #pragma once
-// A list of types, all combinations of three lists, and the step from a number to a type.
+// A list of types, all combinations of lists, and the step from a number to a type.
 
+#include <array>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -12,8 +13,12 @@ struct TypeList {
   static constexpr std::size_t size = sizeof...(Types);
 };
 
+namespace detail {
+
 template <class... Lists>
-struct Joined;
+struct Joined {
+  using type = TypeList<>;
+};
 template <class... A>
 struct Joined<TypeList<A...>> {
   using type = TypeList<A...>;
@@ -21,24 +26,22 @@ struct Joined<TypeList<A...>> {
 template <class... A, class... B, class... Rest>
 struct Joined<TypeList<A...>, TypeList<B...>, Rest...> : Joined<TypeList<A..., B...>, Rest...> {};
 
-template <template <class, class, class> class Law, class A, class B, class Cs>
-struct WithThird;
-template <template <class, class, class> class Law, class A, class B, class... C>
-struct WithThird<Law, A, B, TypeList<C...>> {
-  using type = TypeList<Law<A, B, C>...>;
+// Fills the places of Law one list at a time.
+template <template <class...> class Law, class Done, class... Lists>
+struct Combined;
+template <template <class...> class Law, class... Done>
+struct Combined<Law, TypeList<Done...>> {
+  using type = TypeList<Law<Done...>>;
 };
-template <template <class, class, class> class Law, class A, class Bs, class Cs>
-struct WithSecond;
-template <template <class, class, class> class Law, class A, class... B, class Cs>
-struct WithSecond<Law, A, TypeList<B...>, Cs> : Joined<typename WithThird<Law, A, B, Cs>::type...> {};
-template <template <class, class, class> class Law, class As, class Bs, class Cs>
-struct WithFirst;
-template <template <class, class, class> class Law, class... A, class Bs, class Cs>
-struct WithFirst<Law, TypeList<A...>, Bs, Cs> : Joined<typename WithSecond<Law, A, Bs, Cs>::type...> {};
+template <template <class...> class Law, class... Done, class... First, class... Rest>
+struct Combined<Law, TypeList<Done...>, TypeList<First...>, Rest...>
+    : Joined<typename Combined<Law, TypeList<Done..., First>, Rest...>::type...> {};
 
-/// Law<A, B, C> for all A, B, C of three lists, the last running fastest.
-template <template <class, class, class> class Law, class As, class Bs, class Cs>
-using Combinations = typename WithFirst<Law, As, Bs, Cs>::type;
+}  // namespace detail
+
+/// Law<A, B, …> for all A, B, … of the lists, the last running fastest.
+template <template <class...> class Law, class... Lists>
+using Combinations = typename detail::Combined<Law, TypeList<>, Lists...>::type;
 
 /// Calls f.template operator()<T>() for every type.
 template <class... Types, class F>
@@ -46,24 +49,10 @@ constexpr void forEachType(TypeList<Types...>, F&& f) {
   (f.template operator()<Types>(), ...);
 }
 
-namespace detail {
-template <class Result, class First, class... Rest, class Visitor>
-constexpr Result visit(TypeList<First, Rest...>, std::size_t index, Visitor& visitor) {
-  if constexpr (sizeof...(Rest) == 0)
-    return visitor.template operator()<First>();
-  else
-    return index == 0 ? visitor.template operator()<First>() : visit<Result>(TypeList<Rest...>{}, index - 1, visitor);
-}
-template <class First, class... Rest>
-First firstOf(TypeList<First, Rest...>);
-}  // namespace detail
-
-/// Calls visitor.template operator()<T>() for the type with this index (the last one when the index is too large).
-template <class List, class Visitor>
-constexpr decltype(auto) visitType(std::size_t index, Visitor& visitor) {
-  using First = decltype(detail::firstOf(List{}));
-  using Result = decltype(visitor.template operator()<First>());
-  return detail::visit<Result>(List{}, index, visitor);
+/// What f.template operator()<T>() returns, type by type: a number becomes a type by looking up what was made for it.
+template <class... Types, class F>
+constexpr auto tableOf(TypeList<Types...>, F&& f) {
+  return std::array{f.template operator()<Types>()...};
 }
 
 }  // namespace tsubu::sim

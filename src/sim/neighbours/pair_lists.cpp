@@ -66,7 +66,8 @@ void PairLists::placeRemembered(const State& state, const std::vector<std::int32
     if (a < 0 || b < 0) continue;
     if (a > b) {
       std::swap(a, b);
-      for (double& component : contact.memory) component = -component;
+      for (int c = 0; c < stateSize_; ++c)
+        if (odd_ >> c & 1U) contact.memory[c] = -contact.memory[c];
     }
     contact.i = a;
     contact.j = b;

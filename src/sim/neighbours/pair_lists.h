@@ -9,6 +9,7 @@
 #include "core/thread_team.h"
 #include "sim/neighbours/cell_grid.h"
 #include "sim/neighbours/slabs.h"
+#include "sim/laws/memory.h"
 #include "sim/state.h"
 
 namespace tsubu::sim {
@@ -23,7 +24,8 @@ struct SlabPairs {
 
 class PairLists {
  public:
-  explicit PairLists(int stateSize) : stateSize_(stateSize) {}
+  /// `stateSize` doubles of memory per contact; `odd`: those that change sign when the order of a pair turns round, as bits.
+  PairLists(int stateSize, unsigned odd) : stateSize_(stateSize), odd_(odd) {}
 
   /// Notes which contacts carry memory before the grains are put into a new order.
   void rememberContacts();
@@ -41,7 +43,7 @@ class PairLists {
  private:
   struct Remembered {
     std::int32_t i, j;
-    double memory[6];
+    double memory[mostMemory];
   };
   void searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, std::vector<std::int32_t>& own,
                   std::vector<std::int32_t>& before) const;
@@ -49,6 +51,7 @@ class PairLists {
   void filterSlab(const State& state, SlabPairs& pairs, double innerSkin) const;
 
   int stateSize_;
+  unsigned odd_;
   std::vector<SlabPairs> slabs_;
   std::vector<Remembered> remembered_;
 };

@@ -41,56 +41,56 @@ double integratedRestitution(double zeta, bool tension) {
 }
 
 TEST(DampingFromRestitution, WithTensionAgreesWithIntegration) {
-  for (const double zeta : {0.001, 0.05, 0.3, 0.6, 0.8, 0.9}) EXPECT_NEAR(restitutionLinear(zeta, true), integratedRestitution(zeta, true), 1e-8) << zeta;
-  EXPECT_EQ(restitutionLinear(1.0, true), 0.0);
-  EXPECT_EQ(restitutionLinear(3.0, true), 0.0);
+  for (const double zeta : {0.001, 0.05, 0.3, 0.6, 0.8, 0.9}) EXPECT_NEAR(restitutionOf(zeta, true), integratedRestitution(zeta, true), 1e-8) << zeta;
+  EXPECT_EQ(restitutionOf(1.0, true), 0.0);
+  EXPECT_EQ(restitutionOf(3.0, true), 0.0);
 }
 
 TEST(DampingFromRestitution, WithoutTensionAgreesWithIntegrationInAllBranches) {
   // Schwager & Pöschel 2007: ζ < 1/√2, up to 1, beyond 1.
   for (const double zeta : {0.001, 0.05, 0.3, 0.5, 0.7, 0.7071, 0.708, 0.8, 0.95, 0.9999, 1.0, 1.0001, 1.1, 2.0, 10.0})
-    EXPECT_NEAR(restitutionLinear(zeta, false), integratedRestitution(zeta, false), 1e-8) << zeta;
+    EXPECT_NEAR(restitutionOf(zeta, false), integratedRestitution(zeta, false), 1e-8) << zeta;
 }
 
 TEST(DampingFromRestitution, BranchesMeetWithoutAStep) {
   for (const double joint : {1 / std::numbers::sqrt2, 1.0}) {
-    const double middle = restitutionLinear(joint, false);
+    const double middle = restitutionOf(joint, false);
     for (const double h : {1e-6, 1e-9, 1e-12}) {
       // The slope de/dζ is of order one here, so the two sides may differ by no more than a few h.
-      EXPECT_NEAR(restitutionLinear(joint - h, false), middle, 5 * h + 1e-9);
-      EXPECT_NEAR(restitutionLinear(joint + h, false), middle, 5 * h + 1e-9);
+      EXPECT_NEAR(restitutionOf(joint - h, false), middle, 5 * h + 1e-9);
+      EXPECT_NEAR(restitutionOf(joint + h, false), middle, 5 * h + 1e-9);
     }
   }
-  EXPECT_NEAR(restitutionLinear(1.0, false), std::exp(-2.0), 1e-15);
+  EXPECT_NEAR(restitutionOf(1.0, false), std::exp(-2.0), 1e-15);
 }
 
 TEST(DampingFromRestitution, IsTheInverseOfRestitution) {
   for (const bool tension : {false, true})
     for (const double e : {1e-6, 1e-3, 0.01, 0.05, 0.1, 0.135, 0.136, 0.3, 0.5, 0.9, 0.99, 0.999999})
-      EXPECT_NEAR(restitutionLinear(dampingRatioLinear(e, tension), tension), e, 1e-12) << e << (tension ? " with" : " without") << " tension";
+      EXPECT_NEAR(restitutionOf(dampingRatio(e, tension), tension), e, 1e-12) << e << (tension ? " with" : " without") << " tension";
 }
 
 TEST(DampingFromRestitution, ElasticIsExactlyWithoutDamping) {
-  EXPECT_EQ(dampingRatioLinear(1.0, true), 0.0);
-  EXPECT_EQ(dampingRatioLinear(1.0, false), 0.0);
-  EXPECT_EQ(restitutionLinear(0.0, true), 1.0);
-  EXPECT_EQ(restitutionLinear(0.0, false), 1.0);
+  EXPECT_EQ(dampingRatio(1.0, true), 0.0);
+  EXPECT_EQ(dampingRatio(1.0, false), 0.0);
+  EXPECT_EQ(restitutionOf(0.0, true), 1.0);
+  EXPECT_EQ(restitutionOf(0.0, false), 1.0);
 }
 
 // Note (B.9): η = −2 ln e √(m k/(π² + ln² e)), that is ζ = −ln e/√(π² + ln² e).
 TEST(DampingFromRestitution, WithTensionIsTheFormulaOfTheNote) {
   for (const double e : {0.05, 0.5, 0.9}) {
     const double l = std::log(e);
-    EXPECT_NEAR(dampingRatioLinear(e, true), -l / std::sqrt(std::numbers::pi * std::numbers::pi + l * l), 1e-15);
+    EXPECT_NEAR(dampingRatio(e, true), -l / std::sqrt(std::numbers::pi * std::numbers::pi + l * l), 1e-15);
   }
 }
 
 TEST(DampingFromRestitution, MoreDampingIsNeededWithTensionForbidden) {
   // Cutting off the pull leaves speed: for small damping, the same e needs more of it… but only of second order. At e = 0.05 a
   // pulling contact is under-damped and one that may not pull over-damped.
-  EXPECT_LT(dampingRatioLinear(0.05, true), 1.0);
-  EXPECT_GT(dampingRatioLinear(0.05, false), 1.0);
-  for (const double e : {0.1, 0.5, 0.9, 0.99}) EXPECT_GT(dampingRatioLinear(e, false), dampingRatioLinear(e, true)) << e;
+  EXPECT_LT(dampingRatio(0.05, true), 1.0);
+  EXPECT_GT(dampingRatio(0.05, false), 1.0);
+  for (const double e : {0.1, 0.5, 0.9, 0.99}) EXPECT_GT(dampingRatio(e, false), dampingRatio(e, true)) << e;
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ namespace {
 
 using test::evaluate;
 using test::Memory;
+using test::Prepared;
 using test::nameOf;
 using test::Result;
 using test::v3;
@@ -21,39 +22,42 @@ using test::vec;
 
 constexpr std::array<StepOf, 2> steps{StepOf{1e-6, 0.5}, StepOf{1e-6, 1.0}};
 
-/// Calls f.operator()<Law>() for every law that makes sense.
+/// Calls f(index, functions) for every law that makes sense.
 template <class F>
 void everyLaw(F&& f) {
-  forEachType(ContactLaws{}, [&]<class Law>() {
-    if constexpr (makesSense<Law>) {
-      SCOPED_TRACE(nameOf<Law>());
-      f.template operator()<Law>();
-    }
-  });
+  for (std::size_t index = 0; index < lawCount(); ++index) {
+    const LawFunctions& law = lawFunctions(index);
+    if (!law.objection.empty()) continue;
+    SCOPED_TRACE(nameOf(law));
+    f(index, law);
+  }
 }
 
 void expectNear(const Vec3& a, const Vec3& b, double tolerance) { EXPECT_LE((a - b).norm(), tolerance) << a.transpose() << " | " << b.transpose(); }
 
 TEST(LawContract, SwappingThePartnersSwapsForceAndMoment) {
-  everyLaw([]<class Law>() {
+  everyLaw([](std::size_t index, const LawFunctions& law) {
     Random random(1, 1);
     for (int n = 0; n < 200; ++n) {
       for (const bool tension : {false, true}) {
-        const auto pair = Law::prepare(test::someProperties(), tension);
+        const Prepared pair(index, test::someProperties(), tension);
         const Contact c = test::randomContact(random);
-        const Memory memory = test::randomMemory(random, c);
+        const Memory memory = test::randomMemory(random, law.traits, c);
         Contact swapped = c;
         swapped.n = -c.n;
         swapped.slip = -c.slip;
         swapped.relativeSpin = -c.relativeSpin;
         swapped.frameAngle = -c.frameAngle;
         for (const StepOf step : steps) {
-          const Result a = evaluate<Law>(pair, c, step, memory), b = evaluate<Law>(pair, swapped, step, {-memory.tangential, -memory.rolling});
+          Memory turned = memory;
+          for (int k = 0; k < law.traits.stateSize; ++k)
+            if (law.traits.odd >> k & 1U) turned[static_cast<std::size_t>(k)] *= -1;
+          const Result a = evaluate(pair, c, step, memory), b = evaluate(pair, swapped, step, turned);
           EXPECT_EQ(a.force, -b.force);
           EXPECT_EQ(a.couple, b.couple);  // n and F_t both turn round: the torque of F_t has the same sign at both ends
           EXPECT_EQ(a.moment, -b.moment);
-          EXPECT_EQ(vec(a.memory.tangential), -vec(b.memory.tangential));
-          EXPECT_EQ(vec(a.memory.rolling), -vec(b.memory.rolling));
+          for (std::size_t k = 0; k < static_cast<std::size_t>(law.traits.stateSize); ++k)
+            EXPECT_EQ(a.memory[k], (law.traits.odd >> k & 1U) ? -b.memory[k] : b.memory[k]);
           EXPECT_EQ(a.energy.friction, b.energy.friction);
         }
       }
@@ -62,12 +66,12 @@ TEST(LawContract, SwappingThePartnersSwapsForceAndMoment) {
 }
 
 TEST(LawContract, TurningTheFrameTurnsTheAnswer) {
-  everyLaw([]<class Law>() {
+  everyLaw([](std::size_t index, const LawFunctions& law) {
     Random random(1, 2);
-    const auto pair = Law::prepare(test::someProperties(), true);
+    const Prepared pair(index, test::someProperties(), true);
     for (int n = 0; n < 200; ++n) {
       const Contact c = test::randomContact(random);
-      const Memory memory = test::randomMemory(random, c);
+      const Memory memory = test::randomMemory(random, law.traits, c);
       const Mat3 R = Eigen::AngleAxisd(random.uniform(0, 6), test::randomVec(random, 1).normalized()).toRotationMatrix();
       const auto turned = [&R](V3 a) { return v3(R * vec(a)); };
       Contact t = c;
@@ -75,14 +79,14 @@ TEST(LawContract, TurningTheFrameTurnsTheAnswer) {
       t.slip = turned(c.slip);
       t.relativeSpin = turned(c.relativeSpin);
       for (const StepOf step : steps) {
-        const Result a = evaluate<Law>(pair, c, step, memory);
-        const Result b = evaluate<Law>(pair, t, step, {turned(memory.tangential), turned(memory.rolling)});
+        const Result a = evaluate(pair, c, step, memory);
+        const Result b = evaluate(pair, t, step, test::mapped(law.traits, memory, turned));
         // Forces of 0.1 N and moments of 1e-4 N m; rounding of a few units in the last place.
         expectNear(R * a.force, b.force, 1e-15);
         expectNear(R * a.couple, b.couple, 1e-15);
         expectNear(R * a.moment, b.moment, 1e-18);
-        expectNear(R * vec(a.memory.tangential), vec(b.memory.tangential), 1e-15);
-        expectNear(R * vec(a.memory.rolling), vec(b.memory.rolling), 1e-18);
+        const Memory expected = test::mapped(law.traits, a.memory, turned);
+        for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(expected[k], b.memory[k], 1e-14 * (0.1 + std::abs(expected[k])));
       }
     }
   });
@@ -97,19 +101,22 @@ struct Units {
 PropertyValues inUnits(PropertyValues v, Units u) {
   v[Property::normalStiffness] *= u.mass / (u.time * u.time);
   v[Property::tangentialStiffness] *= u.mass / (u.time * u.time);
+  v[Property::youngModulus] *= u.force() / (u.length * u.length);
+  v[Property::tangentialDampingRate] /= u.time;
+  v[Property::rollingViscosity] *= u.time / u.length;
   return v;
 }
 
 TEST(LawContract, OtherUnitsGiveTheSameAnswer) {
-  everyLaw([]<class Law>() {
+  everyLaw([](std::size_t index, const LawFunctions& law) {
     Random random(1, 3);
     for (int n = 0; n < 200; ++n) {
       const auto decades = [&] { return std::pow(10.0, random.uniform(-6, 6)); };
       const Units u{decades(), decades(), decades()};
       const double torque = u.force() * u.length;
-      const auto pair = Law::prepare(test::someProperties(), false), other = Law::prepare(inUnits(test::someProperties(), u), false);
+      const Prepared pair(index, test::someProperties(), false), other(index, inUnits(test::someProperties(), u), false);
       const Contact c = test::randomContact(random);
-      const Memory memory = test::randomMemory(random, c);
+      const Memory memory = test::randomMemory(random, law.traits, c);
       Contact o = c;
       o.overlap *= u.length;
       o.separationSpeed *= u.length / u.time;
@@ -117,13 +124,23 @@ TEST(LawContract, OtherUnitsGiveTheSameAnswer) {
       o.relativeSpin = (1 / u.time) * c.relativeSpin;
       o.effectiveMass *= u.mass;
       o.effectiveRadius *= u.length;
+      o.inverseEffectiveMass /= u.mass;
       o.inverseSpinInertia /= u.mass * u.length * u.length;
+      const auto factor = [&](int component) {
+        const test::Part part = test::partOf(law.traits, component);
+        return part == test::Part::force ? u.force() : part == test::Part::stiffness ? u.force() / u.length : torque;
+      };
+      Memory otherMemory = memory;
+      for (int k = 0; k < law.traits.stateSize; ++k) otherMemory[static_cast<std::size_t>(k)] *= factor(k);
       for (const StepOf step : steps) {
-        const Result a = evaluate<Law>(pair, c, step, memory);
-        const Result b = evaluate<Law>(other, o, {step.dt * u.time, step.lead}, {u.force() * memory.tangential, torque * memory.rolling});
+        const Result a = evaluate(pair, c, step, memory);
+        const Result b = evaluate(other, o, {step.dt * u.time, step.lead}, otherMemory);
         expectNear(u.force() * a.force, b.force, 1e-12 * b.force.norm() + 1e-16 * u.force());
         expectNear(torque * a.moment, b.moment, 1e-12 * b.moment.norm());
-        expectNear(u.force() * vec(a.memory.tangential), vec(b.memory.tangential), 1e-12 * vec(b.memory.tangential).norm());
+        for (int k = 0; k < law.traits.stateSize; ++k) {
+          const double there = b.memory[static_cast<std::size_t>(k)];
+          EXPECT_NEAR(factor(k) * a.memory[static_cast<std::size_t>(k)], there, 1e-11 * std::abs(there) + 1e-14 * factor(k));
+        }
         EXPECT_NEAR(torque * a.energy.storedTangential, b.energy.storedTangential, 1e-12 * std::abs(b.energy.storedTangential));
         EXPECT_NEAR(torque * a.energy.storedRolling, b.energy.storedRolling, 1e-12 * std::abs(b.energy.storedRolling));
       }
@@ -132,13 +149,13 @@ TEST(LawContract, OtherUnitsGiveTheSameAnswer) {
 }
 
 TEST(LawContract, FrictionStaysWithinTheCoulombLimit) {
-  everyLaw([]<class Law>() {
+  everyLaw([](std::size_t index, const LawFunctions& law) {
     Random random(1, 4);
     const PropertyValues values = test::someProperties();
     for (int n = 0; n < 1000; ++n) {
-      const auto pair = Law::prepare(values, n % 2 == 0);
+      const Prepared pair(index, values, n % 2 == 0);
       const Contact c = test::randomContact(random);
-      const Result r = evaluate<Law>(pair, c, steps[static_cast<std::size_t>(n / 2 % 2)], test::randomMemory(random, c));
+      const Result r = evaluate(pair, c, steps[static_cast<std::size_t>(n / 2 % 2)], test::randomMemory(random, law.traits, c));
       const double normal = r.force.dot(vec(c.n));
       const Vec3 tangential = r.force - normal * vec(c.n);
       EXPECT_LE(tangential.norm(), values[Property::friction] * std::abs(normal) * (1 + 1e-12) + 1e-17);
@@ -151,7 +168,7 @@ TEST(LawContract, FrictionStaysWithinTheCoulombLimit) {
 }
 
 TEST(LawContract, NothingIsNotANumber) {
-  everyLaw([]<class Law>() {
+  everyLaw([](std::size_t index, const LawFunctions& law) {
     Random random(1, 5);
     const auto zeroed = [](Property p, double value = 0) {
       PropertyValues v = test::someProperties();
@@ -163,10 +180,10 @@ TEST(LawContract, NothingIsNotANumber) {
                                 zeroed(Property::tangentialDampingRate, 0)};
     for (const PropertyValues& values : properties) {
       for (const bool tension : {false, true}) {
-        const auto pair = Law::prepare(values, tension);
+        const Prepared pair(index, values, tension);
         for (int n = 0; n < 64; ++n) {
           Contact c = test::randomContact(random);
-          Memory memory = test::randomMemory(random, c);
+          Memory memory = test::randomMemory(random, law.traits, c);
           if (n & 1) c.overlap = 0;
           if (n & 2) c.separationSpeed = 0;
           if (n & 4) c.slip = {0, 0, 0};
@@ -174,9 +191,9 @@ TEST(LawContract, NothingIsNotANumber) {
           if (n & 16) memory = {};
           if (n & 32) c.n = {0, 0, 0};  // centres that coincide have no direction
           for (const StepOf step : steps) {
-            const Result r = evaluate<Law>(pair, c, step, memory);
+            const Result r = evaluate(pair, c, step, memory);
             EXPECT_TRUE(r.force.allFinite() && r.couple.allFinite() && r.moment.allFinite());
-            EXPECT_TRUE(vec(r.memory.tangential).allFinite() && vec(r.memory.rolling).allFinite());
+            for (const double component : r.memory) EXPECT_TRUE(std::isfinite(component));
             const ContactEnergy& e = r.energy;
             EXPECT_TRUE(std::isfinite(e.storedNormal + e.storedTangential + e.storedRolling + e.normal + e.tangential + e.friction + e.rolling));
           }
@@ -187,20 +204,22 @@ TEST(LawContract, NothingIsNotANumber) {
 }
 
 TEST(LawContract, WorkIsStoredOrDissipated) {
-  everyLaw([]<class Law>() {
+  everyLaw([](std::size_t index, const LawFunctions& law) {
     Random random(1, 6);
-    const auto pair = Law::prepare(test::someProperties(), false);
+    const Prepared pair(index, test::someProperties(), false);
     for (int n = 0; n < 500; ++n) {
       const Contact c = test::randomContact(random);
-      const Memory memory = test::randomMemory(random, c);
+      const Memory memory = test::randomMemory(random, law.traits, c);
       const StepOf step = steps[static_cast<std::size_t>(n % 2)];
-      const Result r = evaluate<Law>(pair, c, step, memory);
+      const Result r = evaluate(pair, c, step, memory);
       EXPECT_GE(r.energy.storedNormal, 0);
       EXPECT_GE(r.energy.storedTangential, 0);
       EXPECT_GE(r.energy.storedRolling, 0);
       EXPECT_GE(r.energy.normal, -1e-18);
       EXPECT_GE(r.energy.tangential, 0);
-      EXPECT_GE(r.energy.friction, -1e-15 * (1 + vec(memory.tangential).norm()));
+      if (law.traits.passive) {
+        EXPECT_GE(r.energy.friction, -1e-15);
+      }
       EXPECT_GE(r.energy.rolling, -1e-15);
     }
   });
@@ -233,19 +252,19 @@ class Loop {
 // energy comes out. In the first cycle too, none beyond what the memory held, which is nothing. Slow loops probe springs, fast ones
 // dashpots; light ones slide, deep ones stick.
 TEST(LawContract, ClosedPathsNeverGainEnergy) {
-  everyLaw([]<class Law>() {
+  everyLaw([](std::size_t index, const LawFunctions&) {
     Random random(1, 7);
-    for (int n = 0; n < 60; ++n) {
+    for (int n = 0; n < 12; ++n) {
       const double period = std::pow(10.0, random.uniform(-4, 0)), depth = 5e-5, width = std::pow(10.0, random.uniform(-6, -3));
       const Loop overlap(random, depth), x(random, width), y(random, width), turnX(random, width / 1e-3), turnY(random, width / 1e-3);
       PropertyValues values = test::someProperties();
       if (n % 3 == 0) values[Property::restitution] = 1;                               // nothing is lost along n …
       if (n % 3 == 0) values[Property::tangentialDampingRate] = random.uniform(0, 3e4);  // … so that a gain across it shows
-      const auto pair = Law::prepare(values, n % 2 == 0);
+      const Prepared pair(index, values, n % 2 == 0);
       for (const double lead : {0.5, 1.0}) {
         const int count = 4000;
         const StepOf step{period / count, lead};
-        Memory memory;
+        Memory memory{};
         double work = 0, most = 0, turnover = 0;
         for (int cycle = 0; cycle < 3; ++cycle) {
           for (int k = 0; k < count; ++k) {
@@ -257,13 +276,14 @@ TEST(LawContract, ClosedPathsNeverGainEnergy) {
             c.slip = {x.rate(t) / period, y.rate(t) / period, 0};
             c.relativeSpin = {turnX.rate(t) / period, turnY.rate(t) / period, 0};
             c.effectiveMass = 3e-5;
+            c.inverseEffectiveMass = 1 / c.effectiveMass;
             c.effectiveRadius = 1e-3;
             c.inverseSpinInertia = 5 / (c.effectiveMass * 1e-6);
             if (c.overlap <= 0) {
               memory = {};
               continue;
             }
-            const Result r = evaluate<Law>(pair, c, step, memory);
+            const Result r = evaluate(pair, c, step, memory);
             memory = r.memory;
             const double done = (r.force.dot(c.separationSpeed * vec(c.n) + vec(c.slip)) + r.moment.dot(vec(c.relativeSpin))) * step.dt;
             work += done;

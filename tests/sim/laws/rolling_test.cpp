@@ -29,12 +29,12 @@ Contact rolling(V3 spin) {
   return c;
 }
 
-NormalForce pressing(double force) { return {force, force, 0, 2000, 0}; }
+NormalForce pressing(double force) { return {force, force, 0, 2000, 0, 0}; }
 
 // R1
 TEST(ConstantRolling, TorqueOpposesTheRelativeSpin) {
-  const auto pair = ConstantRolling::prepare(values(0.1), 2000);
-  V3 none{};
+  const auto pair = ConstantRolling::prepare(test::same(values(0.1)));
+  NoMemory<Family::rolling> none;
   const RollingMoment m = ConstantRolling::moment(pair, rolling({30, 0, 40}), pressing(0.5), {dt, 0.5}, none);
   const double size = 0.1 * radius * 0.5;
   EXPECT_NEAR(m.moment.x, -0.6 * size, 1e-18);
@@ -43,8 +43,8 @@ TEST(ConstantRolling, TorqueOpposesTheRelativeSpin) {
 
 // R2: the torque that would stop the spin in one step is the most.
 TEST(ConstantRolling, StopsWithinAStepButNeverReverses) {
-  const auto pair = ConstantRolling::prepare(values(0.1), 2000);
-  V3 none{};
+  const auto pair = ConstantRolling::prepare(test::same(values(0.1)));
+  NoMemory<Family::rolling> none;
   for (const double spin : {1e-12, 1e-6, 1e-3, 1.0, 100.0}) {
     const RollingMoment m = ConstantRolling::moment(pair, rolling({0, spin, 0}), pressing(0.5), {dt, 0.5}, none);
     EXPECT_GE(spin + m.moment.y / inertia * dt, -1e-15 * spin);
@@ -55,8 +55,8 @@ TEST(ConstantRolling, StopsWithinAStepButNeverReverses) {
 
 // The Note's r_i in (1.20) would give the partners of unequal radius different moments. Here R* is the same for both.
 TEST(ConstantRolling, BothPartnersGetTheSameMoment) {
-  const auto pair = ConstantRolling::prepare(values(0.1), 2000);
-  V3 none{};
+  const auto pair = ConstantRolling::prepare(test::same(values(0.1)));
+  NoMemory<Family::rolling> none;
   Contact c = rolling({3, 4, 0});
   const V3 onI = ConstantRolling::moment(pair, c, pressing(0.5), {dt, 0.5}, none).moment;
   c.relativeSpin = -c.relativeSpin;
@@ -69,11 +69,11 @@ TEST(ConstantRolling, BothPartnersGetTheSameMoment) {
 TEST(ElasticPlasticRolling, ElasticBelowTheLimit) {
   PropertyValues v = values(0.1);
   v[Property::rollingDamping] = 0.25;
-  const auto pair = ElasticPlasticRolling::prepare(v, 2000);
+  const auto pair = ElasticPlasticRolling::prepare(test::same(v));
   const double k = 2.25 * 2000 * 0.1 * 0.1 * radius * radius;
   const double damping = 2 * 0.25 * std::sqrt(3.5 * inertia * k);
   for (const double lead : {0.5, 1.0}) {
-    V3 memory{0, 0, 0};
+    VectorMemory memory{};
     double angle = 0;
     for (int n = 0; n < 50; ++n) {
       const double spin = 0.3 * std::cos(0.2 * n);
@@ -85,13 +85,13 @@ TEST(ElasticPlasticRolling, ElasticBelowTheLimit) {
 }
 
 TEST(ElasticPlasticRolling, DampingRatioIsThreeTenthsWhenAbsent) {
-  EXPECT_EQ(ElasticPlasticRolling::prepare(values(0.1), 2000).dampingRatio, 0.3);
+  EXPECT_EQ(ElasticPlasticRolling::prepare(test::same(values(0.1))).dampingRatio, 0.3);
 }
 
 // R3, R4: beyond the limit the moment is μ_r R* |F_n| and the dashpot is silent.
 TEST(ElasticPlasticRolling, YieldsAtTheLimit) {
-  const auto pair = ElasticPlasticRolling::prepare(values(0.1), 2000);
-  V3 memory{0, 0, 0};
+  const auto pair = ElasticPlasticRolling::prepare(test::same(values(0.1)));
+  VectorMemory memory{};
   RollingMoment m{};
   for (int n = 0; n < 20000; ++n) m = ElasticPlasticRolling::moment(pair, rolling({30, 40, 0}), pressing(0.5), {dt, 0.5}, memory);
   EXPECT_NEAR(norm(m.moment), 0.1 * radius * 0.5, 1e-12 * radius);
@@ -100,26 +100,26 @@ TEST(ElasticPlasticRolling, YieldsAtTheLimit) {
 
 // A pile stands: the moment stays when the spin is gone.
 TEST(ElasticPlasticRolling, HoldsAMomentAtRest) {
-  const auto pair = ElasticPlasticRolling::prepare(values(0.1), 2000);
-  V3 memory{0, 0, 0};
+  const auto pair = ElasticPlasticRolling::prepare(test::same(values(0.1)));
+  VectorMemory memory{};
   for (int n = 0; n < 20000; ++n) ElasticPlasticRolling::moment(pair, rolling({0, 50, 0}), pressing(0.5), {dt, 0.5}, memory);
   const RollingMoment m = ElasticPlasticRolling::moment(pair, rolling({0, 0, 0}), pressing(0.5), {dt, 0.5}, memory);
   EXPECT_NEAR(m.moment.y, -0.1 * radius * 0.5, 1e-3 * 0.1 * radius * 0.5);
 }
 
 TEST(ElasticPlasticRolling, SpinAboutTheNormalIsFree) {
-  const auto pair = ElasticPlasticRolling::prepare(values(0.1), 2000);
-  V3 memory{0, 0, 0};
+  const auto pair = ElasticPlasticRolling::prepare(test::same(values(0.1)));
+  VectorMemory memory{};
   EXPECT_EQ(norm(ElasticPlasticRolling::moment(pair, rolling({0, 0, 50}), pressing(0.5), {dt, 0.5}, memory).moment), 0);
 }
 
 TEST(ElasticPlasticRolling, NeverGivesEnergy) {
   Random random(7, 2);
   PropertyValues v = values(0.1);
-  const auto pair = ElasticPlasticRolling::prepare(v, 2000);
+  const auto pair = ElasticPlasticRolling::prepare(test::same(v));
   for (int n = 0; n < 10000; ++n) {
     const Contact c = test::randomContact(random);
-    V3 memory = test::randomMemory(random, c).rolling;
+    VectorMemory memory{test::v3(test::tangentTo(vec(c.n), test::randomVec(random, 1e-5)))};
     const StepOf step{1e-5, random.uniform() < 0.5 ? 0.5 : 1.0};
     const RollingMoment m = ElasticPlasticRolling::moment(pair, c, pressing(random.uniform(0, 0.1)), step, memory);
     const double work = -dot(m.moment, c.relativeSpin) * step.dt;
