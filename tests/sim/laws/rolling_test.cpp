@@ -127,5 +127,28 @@ TEST(ElasticPlasticRolling, NeverGivesEnergy) {
   }
 }
 
+// R6: proportional to load and rolling speed, without the part about n.
+TEST(ViscousRolling, GrowsWithSpeedAndLoad) {
+  PropertyValues v;
+  v[Property::rollingViscosity] = 0.7;
+  const auto pair = ViscousRolling::prepare(test::same(v));
+  NoMemory<Family::rolling> none;
+  const RollingMoment m = ViscousRolling::moment(pair, rolling({3, -4, 9}), pressing(-0.5), {dt, 0.5}, none);
+  const double per = 0.7 * radius * radius * 0.5;
+  EXPECT_NEAR(m.moment.x, -3 * per, 1e-18);
+  EXPECT_NEAR(m.moment.y, 4 * per, 1e-18);
+  EXPECT_NEAR(m.moment.z, 0, 1e-20);
+  EXPECT_NEAR(m.dissipated, 25 * per * dt, 1e-20);
+}
+
+// R2
+TEST(ViscousRolling, StopsWithinAStepButNeverReverses) {
+  PropertyValues v;
+  v[Property::rollingViscosity] = 1e12;
+  NoMemory<Family::rolling> none;
+  const RollingMoment m = ViscousRolling::moment(ViscousRolling::prepare(test::same(v)), rolling({0, 30, 0}), pressing(0.5), {dt, 0.5}, none);
+  EXPECT_NEAR(30 + m.moment.y / inertia * dt, 0, 1e-13);
+}
+
 }  // namespace
 }  // namespace tsubu::sim
