@@ -12,6 +12,7 @@
 #include "scene/wall_pictures.h"
 #include "sim/fields/flow.h"
 #include "sim/fields/gravity.h"
+#include "sim/periodic.h"
 
 namespace tsubu::scene {
 
@@ -133,6 +134,7 @@ sim::Model buildModel(const Scene& scene) {
   for (const Counter& counter : scene.counters)
     model.counters.push_back({counter.name, counter.point, counter.normal.normalized(), counter.radius});
   if (s.domain) model.domain = Box(s.domain->min, s.domain->max);
+  model.periodic = s.periodic;
   model.skin = s.skin.value_or(0);
   model.ledger = s.ledger;
   model.load = scene.colours.by == render::ColourBy::force;
@@ -250,6 +252,7 @@ Built build(const Scene& scene) {
   Built built;
   built.model = buildModel(scene);
   buildGrains(scene, built.model);
+  sim::checkPeriods(built.model);
   buildWalls(scene, built);
   built.plan = planFrames(scene, built.model, expectedSpeed(built.model, built.bounds, scene.simulation.end), built.warnings);
   built.model.timeStep = built.plan.timeStep;

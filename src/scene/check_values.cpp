@@ -17,7 +17,7 @@ class ValueCheck {
       : scene_(scene), positionOf_(positionOf), findings_(findings) {}
 
   void all() {
-    if (scene_.simulation.domain) box({"simulation", "domain"}, *scene_.simulation.domain);
+    if (scene_.simulation.domain) domain(*scene_.simulation.domain);
     for (const GrainSource& source : scene_.grains) grains(source);
     for (const Wall& wall : scene_.walls) motions(wall);
     for (const Sink& sink : scene_.sinks) region({"sinks", sink.name}, sink.region);
@@ -46,6 +46,15 @@ class ValueCheck {
       return false;
     }
     return true;
+  }
+
+  void domain(const sim::BoxRegion& b) {
+    const Path path{"simulation", "domain"};
+    if (!box(path, b)) return;
+    for (int k = 0; k < 3; ++k) {
+      if (!scene_.simulation.periodic[static_cast<std::size_t>(k)] || std::isfinite(b.max[k] - b.min[k])) continue;
+      complain(inside(path, "periodic"), fmt::format("The domain is periodic along {} and has no end there.", "xyz"[k]), "give its min and max");
+    }
   }
 
   bool region(const Path& owner, const sim::Region& r) {

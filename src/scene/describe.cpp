@@ -14,6 +14,7 @@ using namespace dimension;
 void describeSimulation(Form& form, Simulation& s) {
   static constexpr Choice integrators[] = {{"symplectic_euler", "Velocity first, then position with the new velocity: first order."},
                                            {"velocity_verlet", "Half a kick, drift, half a kick: second order."}};
+  static constexpr Choice axes[] = {{"x", {}}, {"y", {}}, {"z", {}}};
   static constexpr Choice violations[] = {{"stop", "End the run with a sentence that says which grain, where, when and why."},
                                           {"warn", "Say it once and go on."}};
   form.quantity(required("end", "Simulated time at which the run ends."), s.end, time, positive);
@@ -24,8 +25,13 @@ void describeSimulation(Form& form, Simulation& s) {
   form.integer({"seed", "Another seed gives other random numbers, and nothing else."}, s.seed, 0, std::numeric_limits<std::int64_t>::max());
   bool present = s.domain.has_value();
   sim::BoxRegion domain = s.domain.value_or(sim::BoxRegion{});
-  form.optionalTable({"domain", "Grains that leave this box are lost. Absent: a wide box around all that is there."}, present,
-                     [&](Form& f) { describeBox(f, domain); });
+  form.optionalTable({"domain", "Grains that leave this box are lost, or go on at its other end. Absent: a wide box around all that is there."},
+                     present, [&](Form& f) {
+                       describeBox(f, domain);
+                       f.someWords({"periodic", "Directions in which the box repeats itself: what leaves through one face comes in through the opposite "
+                                                "one. Walls are not repeated: let them go on beyond the box."},
+                                   s.periodic, axes);
+                     });
   s.domain = present ? std::optional(domain) : std::nullopt;
   form.quantityOrAuto({"skin", "How much farther than contact neighbours are listed. \"auto\": from the radii."}, s.skin, length, positive);
   form.boolean({"ledger", "Keep the energy ledger."}, s.ledger);

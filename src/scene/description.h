@@ -63,6 +63,7 @@ struct Simulation {
   double safety = 0.25;            ///< of the stability limit, when the time step is automatic
   std::uint64_t seed = 1;
   std::optional<sim::BoxRegion> domain;
+  std::array<bool, 3> periodic{};  ///< x, y, z: directions in which the domain repeats itself
   std::optional<double> skin;  ///< m
   bool ledger = true;
   OnViolation onViolation = OnViolation::stop;

@@ -258,20 +258,35 @@ void FillingForm::word(const Field& field, std::size_t& index, std::span<const C
     if (field.required) index = noneOfThem;
     return;
   }
+  index = whichWord(*written, choices);
+}
+
+std::size_t FillingForm::whichWord(const io::Value& value, std::span<const Choice> choices) {
   std::vector<std::string> known;
-  if (written->text()) {
+  if (value.text()) {
     for (std::size_t i = 0; i < choices.size(); ++i) {
-      if (choices[i].word == *written->text()) {
-        index = i;
-        return;
-      }
+      if (choices[i].word == *value.text()) return i;
       known.emplace_back(choices[i].word);
     }
   }
-  index = noneOfThem;
-  const auto nearest = written->text() ? nearestName(*written->text(), known) : std::nullopt;
-  complain(*written, fmt::format("'{}' is {}; expected {}.", written->path(), written->description(), quoted(choices)),
+  const auto nearest = value.text() ? nearestName(*value.text(), known) : std::nullopt;
+  complain(value, fmt::format("'{}' is {}; expected {}.", value.path(), value.description(), quoted(choices)),
            nearest ? fmt::format("did you mean '{}'?", *nearest) : std::string());
+  return noneOfThem;
+}
+
+void FillingForm::someWords(const Field& field, std::span<bool> chosen, std::span<const Choice> choices) {
+  const io::Value* written = find(field, fmt::format("[\"{}\"]", choices.front().word));
+  if (!written) return;
+  std::fill(chosen.begin(), chosen.end(), false);
+  if (!written->array()) {
+    complain(*written, fmt::format("'{}' is {}; an array of {} was expected.", written->path(), written->description(), quoted(choices)));
+    return;
+  }
+  for (const io::Value& element : *written->array()) {
+    const std::size_t index = whichWord(element, choices);
+    if (index != noneOfThem) chosen[index] = true;
+  }
 }
 
 // --- tables -------------------------------------------------------------------------------------------------------------

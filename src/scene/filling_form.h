@@ -31,6 +31,7 @@ class FillingForm : public Form {
   void optionalColour(const Field& field, std::optional<render::Colour>& value) override;
   void rangeOrAuto(const Field& field, std::optional<render::Range>& value, Dimension dimension) override;
   void word(const Field& field, std::size_t& index, std::span<const Choice> choices) override;
+  void someWords(const Field& field, std::span<bool> chosen, std::span<const Choice> choices) override;
   void table(const Field& field, const Part& part) override;
   void optionalTable(const Field& field, bool& present, const Part& part) override;
   void list(const Field& field, Entries entries) override;
@@ -45,6 +46,8 @@ class FillingForm : public Form {
   void complain(const io::Value& value, std::string sentence, std::string hint = {});
   void fill(const Field& field, const io::Value& value, const Part& part);
   std::string pathOf(std::string_view key) const;
+  /// Complains and returns `noneOfThem` when it is none of them.
+  std::size_t whichWord(const io::Value& value, std::span<const Choice> choices);
   std::optional<Quantity> toQuantity(const io::Value& value, std::span<const Dimension> dimensions);
   std::optional<double> toNumber(const io::Value& value, Dimension dimension, const Bounds& bounds);
   std::optional<Vec3> toVector(const io::Value& value, Dimension dimension, VectorRule rule);

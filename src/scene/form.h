@@ -94,6 +94,8 @@ class Form {
   /// Two numbers, low and high, or "auto".
   virtual void rangeOrAuto(const Field& field, std::optional<render::Range>& value, Dimension dimension) = 0;
   virtual void word(const Field& field, std::size_t& index, std::span<const Choice> choices) = 0;
+  /// Which of the words are in an array; `chosen[i]` belongs to `choices[i]`.
+  virtual void someWords(const Field& field, std::span<bool> chosen, std::span<const Choice> choices) = 0;
 
   /// A table inside this one.
   virtual void table(const Field& field, const Part& part) = 0;

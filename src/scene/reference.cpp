@@ -82,6 +82,11 @@ class ExplainingForm : public Form {
     }
     row(field, words, code(valueText(std::string(choices[index].word))));
   }
+  void someWords(const Field& field, std::span<bool>, std::span<const Choice> choices) override {
+    std::string words;
+    for (const Choice& choice : choices) words += (words.empty() ? "" : ", ") + code(valueText(std::string(choice.word)));
+    row(field, "array of " + words, "`[]`");
+  }
 
   void table(const Field& field, const Part& part) override { child(field, "table", field.key, part); }
   void optionalTable(const Field& field, bool&, const Part& part) override { child(field, "table", field.key, part); }

@@ -108,6 +108,13 @@ void ShowingForm::word(const Field& field, std::size_t& index, std::span<const C
   line(field, valueText(std::string(choices[index].word)));
 }
 
+void ShowingForm::someWords(const Field& field, std::span<bool> chosen, std::span<const Choice> choices) {
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    if (chosen[i]) words.push_back(valueText(std::string(choices[i].word)));
+  line(field, arrayText(words, [](const std::string& word) { return word; }));
+}
+
 void ShowingForm::inner(std::string path, std::string header, const Part& part) {
   ShowingForm form(std::move(path));
   part(form);

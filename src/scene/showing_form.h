@@ -36,6 +36,7 @@ class ShowingForm : public Form {
   void optionalColour(const Field& field, std::optional<render::Colour>& value) override;
   void rangeOrAuto(const Field& field, std::optional<render::Range>& value, Dimension dimension) override;
   void word(const Field& field, std::size_t& index, std::span<const Choice> choices) override;
+  void someWords(const Field& field, std::span<bool> chosen, std::span<const Choice> choices) override;
   void table(const Field& field, const Part& part) override;
   void optionalTable(const Field& field, bool& present, const Part& part) override;
   void list(const Field& field, Entries entries) override;

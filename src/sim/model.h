@@ -1,6 +1,7 @@
 #pragma once
 // What a simulation consists of, in plain structs: no words, no files, no defaults of scenes. `scene::build` fills it.
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -93,6 +94,7 @@ struct Model {
   std::vector<Sink> sinks;
   std::vector<Counter> counters;
   Box domain;                            ///< grains whose centre leaves it are lost; empty: a box around all that is there, with a wide margin
+  std::array<bool, 3> periodic{};        ///< directions in which the domain repeats itself; it must be finite there (periodic.h)
   double timeStep = 0;                   ///< s; chosen by chooseTimeStep(), or by the user
   double skin = 0;                       ///< m, reach of the outer neighbour list beyond contact; 0: chosen from the radii
   bool ledger = true;                    ///< keep the energy ledger

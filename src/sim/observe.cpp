@@ -81,7 +81,7 @@ Ledger Simulation::Impl::ledgerNow() {
   ledger.inserted = insertedEnergy;
   ledger.removed = removedEnergy;
   ledger.initial = initialEnergy;
-  ledger.workFields = gravity.work();
+  ledger.workFields = gravity.work() + wrapWork;
   for (const MovingWall& wall : moving) wall.account(model.timeStep, lead, gravity.now(), ledger);
   for (const auto& pass : passes) pass->account(world(), ledger);
 
@@ -114,7 +114,8 @@ Simulation::Impl::DeepestContact Simulation::Impl::surveyContacts() const {
       const auto i = static_cast<std::size_t>(slab.i[k]), j = static_cast<std::size_t>(slab.j[k]);
       const GrainRow &a = state.rows[i], &b = state.rows[j];
       const double overlap = a.radius + b.radius - (positionOf(a) - positionOf(b)).norm();
-      if (overlap > 0) meet(overlap / std::min(a.radius, b.radius), i, [&] { return fmt::format("grain {}", state.id[j]); });
+      const auto partner = static_cast<std::size_t>(slab.grainOf(slab.j[k]));
+      if (overlap > 0) meet(overlap / std::min(a.radius, b.radius), i, [&] { return fmt::format("grain {}", state.id[partner]); });
     }
   }
   WallContacts contacts;
@@ -172,7 +173,7 @@ void Simulation::Impl::visitContacts(Visit&& visit) const {
     for (std::size_t k = 0; k < slab.i.size(); ++k) {
       const auto i = static_cast<std::size_t>(slab.i[k]), j = static_cast<std::size_t>(slab.j[k]);
       const GrainRow &a = state.rows[i], &b = state.rows[j];
-      SeenContact seen{i, j, see(positionOf(a) - positionOf(b), a.radius + b.radius, Vec3(a.vx - b.vx, a.vy - b.vy, a.vz - b.vz),
+      SeenContact seen{i, static_cast<std::size_t>(slab.grainOf(slab.j[k])), see(positionOf(a) - positionOf(b), a.radius + b.radius, Vec3(a.vx - b.vx, a.vy - b.vy, a.vz - b.vz),
                                  1 / (a.inverseMass + b.inverseMass), 1 / (a.inverseRadius + b.inverseRadius)),
                        constants.of(state.material[i] * n + state.material[j]), 1, {}};
       if (!(seen.contact.overlap > 0)) continue;
@@ -244,7 +245,7 @@ void Simulation::Impl::fill(Snapshot& snapshot) {
     snapshot.id.push_back(state.id[g]);
     snapshot.material.push_back(state.material[g]);
     snapshot.radius.push_back(row.radius);
-    snapshot.position.push_back(positionOf(row));
+    snapshot.position.push_back(periods.wrapped(positionOf(row)));
     snapshot.velocity.push_back(now.v);
     if (state.turns) {
       snapshot.angularVelocity.push_back(now.s * row.inverseRadius);
@@ -261,7 +262,7 @@ std::uint64_t Simulation::Impl::contactHash() const {
   const auto c = static_cast<std::size_t>(traits.stateSize);
   for (const SlabPairs& slab : pairs.slabs()) {
     for (std::size_t k = 0; k < slab.i.size() && c > 0; ++k) {
-      std::uint64_t a = state.id[static_cast<std::size_t>(slab.i[k])], b = state.id[static_cast<std::size_t>(slab.j[k])];
+      std::uint64_t a = state.id[static_cast<std::size_t>(slab.i[k])], b = state.id[static_cast<std::size_t>(slab.grainOf(slab.j[k]))];
       const double sign = a < b ? 1 : -1;
       Hash hash;
       hash.add(std::min(a, b));

@@ -13,6 +13,7 @@
 #include "sim/model.h"
 #include "sim/neighbours/pair_lists.h"
 #include "sim/neighbours/slabs.h"
+#include "sim/periodic.h"
 #include "sim/state.h"
 
 namespace tsubu::sim {
@@ -23,6 +24,7 @@ struct World {
   State& state;
   const Slabs& slabs;
   const PairLists& pairs;
+  const Periods& periods;  ///< differences of positions are `periods.nearest(x_i − x_j)`
   ThreadTeam& team;
   Vec3 gravity;  ///< m/s²
   double time;   ///< s

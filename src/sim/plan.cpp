@@ -34,12 +34,14 @@ Plan Simulation::plan(const Model& model) {
   item(!model.streams.empty(), "inlets");
   item(!model.sinks.empty(), "sinks");
   item(!model.counters.empty(), "counters");
+  const bool periodic = std::find(model.periodic.begin(), model.periodic.end(), true) != model.periodic.end();
+  item(periodic, "periodic domain");
   item(model.ledger, "energy ledger");
 
   if (!model.streams.empty()) plan.passes.push_back("arrivals");
   if (!model.sinks.empty()) plan.passes.push_back("sinks");
   plan.passes.push_back("neighbour lists (when grains have moved)");
-  plan.passes.push_back("pair contacts");
+  plan.passes.push_back(periodic ? "pair contacts, also across the periodic boundary" : "pair contacts");
   if (!model.walls.empty()) plan.passes.push_back("wall contacts");
   for (const auto& pass : makePasses(model)) plan.passes.push_back(pass->name());
   plan.passes.push_back(verlet ? "integrate: velocity Verlet" : "integrate: symplectic Euler");

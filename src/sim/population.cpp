@@ -78,21 +78,22 @@ void Simulation::Impl::addGrain(const Grain& grain) {
   rebuildNeeded = true;
 }
 
-void Simulation::Impl::countCrossings() {
-  if (model.counters.empty()) return;
-  for (std::size_t g = 0; g < state.size(); ++g) {
-    const Vec3 x = positionOf(state.rows[g]);
-    const std::uint32_t now = sidesOf(x), changed = now ^ state.sides[g];
-    if (changed == 0) continue;
-    state.sides[g] = now;
-    for (std::size_t c = 0; c < model.counters.size(); ++c) {
-      if ((changed >> c & 1U) == 0) continue;
-      const Counter& counter = model.counters[c];
-      const Vec3 offset = x - counter.point;
-      if ((offset - offset.dot(counter.normal) * counter.normal).norm() > counter.radius) continue;
-      counts.crossed[c] += (now >> c & 1U) ? 1 : -1;
-    }
+void Simulation::Impl::countCrossing(std::size_t grain) {
+  const Vec3 x = positionOf(state.rows[grain]);
+  const std::uint32_t now = sidesOf(x), changed = now ^ state.sides[grain];
+  if (changed == 0) return;
+  state.sides[grain] = now;
+  for (std::size_t c = 0; c < model.counters.size(); ++c) {
+    if ((changed >> c & 1U) == 0) continue;
+    const Counter& counter = model.counters[c];
+    const Vec3 offset = x - counter.point;
+    if ((offset - offset.dot(counter.normal) * counter.normal).norm() > counter.radius) continue;
+    counts.crossed[c] += (now >> c & 1U) ? 1 : -1;
   }
+}
+
+void Simulation::Impl::countCrossings() {
+  for (std::size_t g = 0; g < state.size() && !model.counters.empty(); ++g) countCrossing(g);
 }
 
 void Simulation::Impl::changePopulation() {
@@ -121,7 +122,7 @@ void Simulation::Impl::leave() {
     slab.tunnelled.clear();
   }
   for (std::size_t g = 0; g < state.size(); ++g) {
-    const Vec3 x = positionOf(state.rows[g]);
+    const Vec3 x = periods.wrapped(positionOf(state.rows[g]));
     if (!model.domain.contains(x)) lose(g, "left the domain", goes);
     for (const Sink& sink : model.sinks) {
       if (goes[g] || !sink.region.contains(x)) continue;
@@ -133,7 +134,10 @@ void Simulation::Impl::leave() {
 }
 
 void Simulation::Impl::removeGrains(const std::vector<char>& goes) {
-  if (model.ledger) removedEnergy += storedInContactsOf(goes);
+  if (model.ledger) {
+    for (const SlabPairs& slab : pairs.slabs()) PairLists::refreshImages(state, slab);
+    removedEnergy += storedInContactsOf(goes);
+  }
   std::vector<std::int32_t> stay;
   std::vector<std::int32_t> place(state.size(), -1);
   for (std::size_t g = 0; g < state.size(); ++g) {
@@ -149,27 +153,33 @@ void Simulation::Impl::removeGrains(const std::vector<char>& goes) {
   rebuildNeeded = true;
 }
 
+/// `near` is room to work in.
+bool Simulation::Impl::touchesGrain(const Vec3& centre, double radius, std::vector<std::int32_t>& near) const {
+  near.clear();
+  // The grid knows the cells as they were at the last rebuild; the skin covers what grains have moved since.
+  if (rebuildNeeded) {
+    for (std::size_t g = 0; g < state.size(); ++g) near.push_back(static_cast<std::int32_t>(g));
+  } else {
+    const Vec3 inside = periods.wrapped(centre);
+    grid.near(inside, radius, -1, true, near);
+    periods.forImages(inside, grid.farthest(radius), [&](int shift) { grid.near(inside + periods.shift(shift), radius, -1, true, near); });
+  }
+  return std::any_of(near.begin(), near.end(), [&](std::int32_t g) {
+    const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
+    const double cut = row.radius + radius;
+    return periods.nearest(positionOf(row) - centre).squaredNorm() < cut * cut;
+  });
+}
+
 void Simulation::Impl::arrive() {
   std::vector<Grain> arrivals;
   std::vector<std::int32_t> near;
   const IsFree isFree = [&](const Vec3& centre, double radius) {
     for (const Grain& grain : arrivals) {
       const double cut = grain.radius + radius;
-      if ((grain.position - centre).squaredNorm() < cut * cut) return false;
+      if (periods.nearest(grain.position - centre).squaredNorm() < cut * cut) return false;
     }
-    near.clear();
-    // The grid knows the cells as they were at the last rebuild; the skin covers what grains have moved since.
-    if (rebuildNeeded) {
-      for (std::size_t g = 0; g < state.size(); ++g) near.push_back(static_cast<std::int32_t>(g));
-    } else {
-      grid.near(centre, radius, -1, true, near);
-    }
-    for (const std::int32_t g : near) {
-      const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
-      const double cut = row.radius + radius;
-      if ((positionOf(row) - centre).squaredNorm() < cut * cut) return false;
-    }
-    return !walls.touches(centre, radius);
+    return !touchesGrain(centre, radius, near) && !walls.touches(centre, radius);
   };
   for (std::size_t s = 0; s < model.streams.size(); ++s) {
     const Stream& stream = model.streams[s];

@@ -37,7 +37,9 @@ Simulation::Impl::Impl(Model given, int threads)
       stages(static_cast<std::size_t>(threads)) {
   prepareLaws();
   for (const MovingWall& wall : moving) contactsOfMoving.push_back(stiffestContact(model, law, wall.wall()));
-  warnOfThinWalls();
+  checkPeriods(model);
+  periods = Periods(model.domain, model.periodic);
+  warnOfWalls();
   prepareState();
   if (model.ledger) {
     computeForces();
@@ -67,7 +69,8 @@ void Simulation::Impl::prepareLaws() {
 }
 
 // A grain that may go farther in a step than a wall is thick can be on its other side before it is noticed.
-void Simulation::Impl::warnOfThinWalls() {
+// Walls are not repeated by a periodic domain: one that ends at its boundary leaves a gap.
+void Simulation::Impl::warnOfWalls() {
   double largest = 0;
   for (const Grain& grain : model.grains) largest = std::max(largest, grain.radius);
   for (const Stream& stream : model.streams) largest = std::max(largest, stream.radii.largest());
@@ -77,6 +80,15 @@ void Simulation::Impl::warnOfThinWalls() {
     if (thickness < travel)
       warnings.push_back(fmt::format("Wall '{}' is {:.3g} m thick at its thinnest, less than the {:.3g} m that a grain may go in a step.",
                                      wall.name, thickness, travel));
+    const Box bounds = wall.surface->bounds();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!periods.along(axis) || wall.surface->asPlane()) continue;
+      const double low = bounds.min()[axis] - model.domain.min()[axis], high = model.domain.max()[axis] - bounds.max()[axis];
+      const auto endsThere = [&](double inside) { return -2 * largest < inside && inside < largest; };
+      if (endsThere(low) || endsThere(high))
+        warnings.push_back(fmt::format("Wall '{}' ends near the periodic boundary along {}; walls are not repeated: let it go on beyond the domain "
+                                       "by {:.3g} m.", wall.name, "xyz"[axis], 2 * largest));
+    }
   }
 }
 
@@ -97,7 +109,7 @@ PassContext Simulation::Impl::context(PairClass pairClass, bool oneClass) {
           oneClass ? constants.of(pairClass.first) : constants.values.data(), {model.timeStep, lead}};
 }
 
-World Simulation::Impl::world() { return {model, state, slabs, pairs, team, gravity.now(), time(), {model.timeStep, lead}}; }
+World Simulation::Impl::world() { return {model, state, slabs, pairs, periods, team, gravity.now(), time(), {model.timeStep, lead}}; }
 
 void Simulation::Impl::step() {
   computeForces();
@@ -110,8 +122,8 @@ void Simulation::Impl::computeForces() {
   const double wallStep = walls.moveTo(time(), model.timeStep);
   placeMovingWalls();
   changePopulation();
-  if (gravity.changes() && model.ledger) gravity.settle(momentOfMass());
   refreshLists();
+  if (gravity.changes() && model.ledger) gravity.settle(momentOfMass());
 
   accountsKnown = model.ledger || steps % watchEvery == 0;
   const auto onPairs = pairKernel(law, {classes.grains.alike, accountsKnown});
@@ -124,11 +136,13 @@ void Simulation::Impl::computeForces() {
       const auto s = static_cast<std::size_t>(slab);
       SlabPairs& list = pairs.slabs()[s];
       Stage& stage = stages[static_cast<std::size_t>(thread)];
+      PairLists::refreshImages(state, list);
       onPairs.kernel(grainsWorld, {list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.data(), list.stride}, stage,
                  last[s]);
       walls.evaluateSlab(slab, wallsWorld, onWalls.kernel, accountsKnown, stage, last[s]);
     });
   }
+  if (pairs.hasImages()) team.run(slabs.count(), [&](int slab, int) { pairs.foldImages(state, slab); });
   if (model.ledger)
     for (const Accounts& accounts : last)
       for (int k = Accounts::normal; k <= Accounts::rolling; ++k)
@@ -216,18 +230,46 @@ void Simulation::Impl::refreshLists() {
 
 void Simulation::Impl::chooseSkins() {
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
-  for (const GrainRow& row : state.rows) {
-    smallest = std::min(smallest, row.radius);
-    largest = std::max(largest, row.radius);
+  for (std::size_t g = 0; g < state.size(); ++g) {
+    smallest = std::min(smallest, state.rows[g].radius);
+    largest = std::max(largest, state.rows[g].radius);
   }
-  if (state.rows.empty()) smallest = largest = 1;
+  if (state.size() == 0) smallest = largest = 1;
   const double stride = 2 * fastest * model.timeStep;
   outerSkin = model.skin > 0 ? model.skin : std::clamp(outerSteps * stride, leastOuter * smallest, mostOuter * smallest);
+  // In a periodic domain no pair may be listed twice: half a period is as far as lists may reach.
+  for (int axis = 0; axis < 3; ++axis)
+    if (periods.along(axis)) outerSkin = std::min(outerSkin, 0.5 * periods.length(axis) - 2 * largest);
   innerSkin = std::min(std::clamp(innerSteps * stride, leastInner * smallest, mostInner * smallest), 0.5 * outerSkin);
   reach = 2 * largest + outerSkin;
 }
 
+// Grains that have left a periodic domain go on at its other end. Under gravity that is work (E5): they may fall for ever.
+void Simulation::Impl::wrapGrains() {
+  state.wrap.assign(state.size(), Vec3::Zero());
+  for (std::size_t g = 0; g < state.size(); ++g) {
+    GrainRow& row = state.rows[g];
+    const Vec3 x(row.x, row.y, row.z), shift = periods.shiftInto(x);
+    if (shift == Vec3::Zero()) continue;
+    state.wrap[g] = shift;
+    row.x += shift.x(), row.y += shift.y(), row.z += shift.z();
+    wrapWork -= gravity.now().dot(shift) / row.inverseMass;
+    if (model.counters.empty()) continue;
+    // For counters that the shift passes, the grain comes from just outside the face through which it comes in.
+    Vec3 before = x + shift;
+    for (int axis = 0; axis < 3; ++axis)
+      if (shift[axis] != 0) before[axis] = 2 * (shift[axis] < 0 ? model.domain.min() : model.domain.max())[axis] - before[axis];
+    for (std::size_t c = 0; c < model.counters.size(); ++c)
+      if (model.counters[c].normal.dot(shift) != 0) state.sides[g] = (state.sides[g] & ~(1U << c)) | (sidesOf(before) & (1U << c));
+    countCrossing(g);
+  }
+}
+
 void Simulation::Impl::rebuildLists() {
+  if (periods.any()) {
+    state.setImages(0);
+    wrapGrains();
+  }
   chooseSkins();
   pairs.rememberContacts();
   std::vector<std::int32_t> order;
@@ -242,10 +284,11 @@ void Simulation::Impl::rebuildLists() {
     placeAfterRemoval.clear();
   }
   grid.build(state.rows, outerSkin);
-  pairs.build(state, slabs, grid, innerSkin, newPlace, team);
+  pairs.build(state, slabs, grid, innerSkin, newPlace, team, periods);
   walls.build(state, slabs, outerSkin, steps > 0 ? model.timeStep : 0.0, newPlace);
   state.reference.resize(state.size());
   for (std::size_t g = 0; g < state.size(); ++g) state.reference[g] = {state.rows[g].x, state.rows[g].y, state.rows[g].z};
+  state.wrap.clear();
   for (const auto& pass : passes) pass->regroup(world(), newPlace);
   outerTravel = wallTravel = 0;
   rebuildNeeded = false;

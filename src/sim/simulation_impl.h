@@ -50,6 +50,7 @@ class Simulation::Impl {
   PairClasses classes{};
   double lead = 1;
   GravityClock gravity;
+  Periods periods;
 
   Slabs slabs;
   CellGrid grid;
@@ -82,12 +83,13 @@ class Simulation::Impl {
   std::vector<std::string> warnings;
   std::vector<StreamProgress> streams;
   double insertedEnergy = 0, removedEnergy = 0;
+  double wrapWork = 0;  ///< J: what gravity gets for grains that go on at the other end of a periodic domain
   double initialEnergy = 0, turnover = 0;
   Ledger lastLedger;
 
  private:
   void prepareLaws();
-  void warnOfThinWalls();
+  void warnOfWalls();
   void prepareState();
   void prepareArrivals();
   void chooseDomain();
@@ -100,6 +102,7 @@ class Simulation::Impl {
   bool listsAreDue() const { return rebuildNeeded || 2 * wallTravel > outerSkin || 2 * innerTravel > innerSkin; }
   void chooseSkins();
   void refreshLists();
+  void wrapGrains();
   void rebuildLists();
   bool outerListsHold();
   PassContext context(PairClass pairClass, bool oneClass);
@@ -116,6 +119,8 @@ class Simulation::Impl {
   void lose(std::size_t grain, const std::string& why, std::vector<char>& goes);
   void removeGrains(const std::vector<char>& goes);
   std::uint32_t sidesOf(const Vec3& position) const;
+  void countCrossing(std::size_t grain);
+  bool touchesGrain(const Vec3& centre, double radius, std::vector<std::int32_t>& near) const;
 
   struct DeepestContact {
     std::uint64_t touching = 0;

@@ -7,6 +7,7 @@ namespace tsubu::sim {
 double massOf(double density, double radius) { return density * (4.0 / 3.0 * std::numbers::pi) * radius * radius * radius; }
 
 void State::add(const Grain& grain, double density, const Vec3& freeFall) {
+  if (images > 0) setImages(0);
   const Vec3& x = grain.position;
   const Vec3& v = grain.velocity;
   const Vec3 s = turns ? Vec3(grain.radius * grain.angularVelocity) : Vec3(Vec3::Zero());
@@ -25,6 +26,14 @@ void State::add(const Grain& grain, double density, const Vec3& freeFall) {
   id.push_back(nextId++);
 }
 
+void State::setImages(std::size_t count) {
+  const std::size_t grains = size();
+  images = count;
+  rows.resize(grains + count);
+  forces.resize(grains + count);
+  material.resize(grains + count);
+}
+
 namespace {
 template <class T>
 void reorderOne(std::vector<T>& items, const std::vector<std::int32_t>& order) {
@@ -37,6 +46,7 @@ void reorderOne(std::vector<T>& items, const std::vector<std::int32_t>& order) {
 }  // namespace
 
 void State::reorder(const std::vector<std::int32_t>& order) {
+  images = 0;
   reorderOne(rows, order);
   reorderOne(half, order);
   reorderOne(orientation, order);
@@ -44,6 +54,7 @@ void State::reorder(const std::vector<std::int32_t>& order) {
   reorderOne(material, order);
   reorderOne(id, order);
   reorderOne(sides, order);
+  reorderOne(wrap, order);
   forces.assign(order.size(), ForceRow{});
 }
 

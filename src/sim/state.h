@@ -22,6 +22,7 @@ struct alignas(32) AngleRow {
   double x, y, z, unused;
 };
 
+/// Rows, forces and materials may go on beyond the grains: images of grains across a periodic boundary (neighbours/pair_lists.h).
 struct State {
   std::vector<GrainRow> rows;
   std::vector<ForceRow> forces;
@@ -32,17 +33,22 @@ struct State {
   std::vector<std::uint32_t> id;
   std::vector<std::uint32_t> sides;      ///< bit c: on the positive side of counter c; empty without counters
   std::vector<Vec3> reference;           ///< positions at the last rebuild of the outer lists
+  std::vector<Vec3> wrap;                ///< what the last rebuild added to the positions; empty unless the domain is periodic
 
   bool verlet = false;
   bool turns = false;
   std::uint32_t nextId = 0;
 
-  std::size_t size() const { return rows.size(); }
+  std::size_t images = 0;  ///< rows beyond those of the grains
+
+  std::size_t size() const { return rows.size() - images; }
   double mass(std::size_t g) const { return 1 / rows[g].inverseMass; }
 
   /// Adds a grain; its velocity is that of the present instant. `freeFall` (m/s): what a force-free half step adds, ½ g Δt.
   void add(const Grain& grain, double density, const Vec3& freeFall);
-  /// Puts the grains into a new order: place k gets what was at order[k]. Grains that `order` leaves out are gone.
+  /// Makes room for so many images, or takes them away.
+  void setImages(std::size_t count);
+  /// Puts the grains into a new order: place k gets what was at order[k]. Grains that `order` leaves out are gone, and all images.
   void reorder(const std::vector<std::int32_t>& order);
 };
 

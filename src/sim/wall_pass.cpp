@@ -115,6 +115,7 @@ void WallPass::build(const State& state, const Slabs& slabs, double skin, double
         const Old key{g, group.wall, {}, {}};
         for (auto [o, end] = std::equal_range(old.begin(), old.end(), key, before); o != end; ++o) {
           group.centre = o->centre;
+          if (!state.wrap.empty()) group.centre += pose.rotation.conjugate() * state.wrap[static_cast<std::size_t>(g)];
           const auto place = std::lower_bound(features.begin(), features.end(), o->candidate.feature);
           if (place != features.end() && *place == o->candidate.feature)
             slab.candidates[static_cast<std::size_t>(group.first + (place - features.begin()))] = o->candidate;

@@ -33,6 +33,7 @@ TEST(Build, EveryAlternativeOfTheFormatRuns) {
   EXPECT_EQ(b.model.integrator, sim::Integrator::symplecticEuler);
   EXPECT_EQ(b.model.contact.rolling, "elastic_plastic");
   EXPECT_EQ(b.model.domain.max(), Vec3::Constant(10));
+  EXPECT_EQ(b.model.periodic, (std::array{true, false, true}));
   ASSERT_EQ(b.model.streams.size(), 2u);
   EXPECT_EQ(b.model.streams[0].kilogramsPerSecond, 0.2);
   EXPECT_EQ(b.model.streams[0].count, 100u);

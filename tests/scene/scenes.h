@@ -37,7 +37,7 @@ ledger = false
 on_violation = "warn"
 overlap_limit = "20 %"
 travel_limit = 0.05
-domain = { min = [-10, -10, -10], max = [10, 10, 10] }
+domain = { min = [-10, -10, -10], max = [10, 10, 10], periodic = ["x", "z"] }
 [contact]
 normal = "linear"
 tangential = "spring"

@@ -27,6 +27,7 @@ TEST(Writer, AnyValueThatDiffersMakesAnotherSceneAndAnotherText) {
                            "simulation.seed=3",
                            "simulation.skin=auto",
                            "simulation.domain.min=[-9,-9,-9]",
+                           "simulation.domain.periodic=[\"y\"]",
                            "contact.tension=false",
                            "contact.rolling=constant",
                            "materials.glass.density=1",

@@ -43,7 +43,10 @@ double strongestGravity(const Vec3& gravity, const std::vector<GravityChange>& c
 
 Vec3 massMoment(const State& state) {
   Vec3 moment = Vec3::Zero();
-  for (const GrainRow& row : state.rows) moment += Vec3(row.x, row.y, row.z) / row.inverseMass;
+  for (std::size_t g = 0; g < state.size(); ++g) {
+    const GrainRow& row = state.rows[g];
+    moment += Vec3(row.x, row.y, row.z) / row.inverseMass;
+  }
   return moment;
 }
 

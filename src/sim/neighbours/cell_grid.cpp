@@ -24,10 +24,12 @@ int CellGrid::level(double radius) const {
 void CellGrid::build(const std::vector<GrainRow>& rows, double reach) {
   rows_ = &rows;
   reach_ = reach;
+  largest_ = 0;
   levels_.clear();
   if (rows.empty()) return;
   const auto [smallest, largest] =
       std::minmax_element(rows.begin(), rows.end(), [](const GrainRow& a, const GrainRow& b) { return a.radius < b.radius; });
+  largest_ = largest->radius;
   // A spread below 1.5 is served best by one level.
   finest_ = 2 * (largest->radius < 1.5 * smallest->radius ? largest->radius : smallest->radius) + reach;
   std::vector<std::vector<std::int32_t>> members(static_cast<std::size_t>(level(largest->radius)) + 1);

@@ -19,6 +19,9 @@ class CellGrid {
   /// in coarser levels only, unless `all`: searching from the smaller partner of a pair is enough, and cheap.
   void near(const Vec3& x, double radius, std::int32_t self, bool all, std::vector<std::int32_t>& found) const;
 
+  /// m: how far from a point a sphere of this radius may meet a listed partner.
+  double farthest(double radius) const { return radius + largest_ + reach_; }
+
   /// Number of the level a radius belongs to.
   int level(double radius) const;
 
@@ -35,6 +38,7 @@ class CellGrid {
 
   const std::vector<GrainRow>* rows_ = nullptr;
   double reach_ = 0;
+  double largest_ = 0;  // radius
   double finest_ = 0;  // edge of level 0
   std::vector<Level> levels_;
 };

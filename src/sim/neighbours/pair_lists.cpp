@@ -1,6 +1,7 @@
 #include "sim/neighbours/pair_lists.h"
 
 #include <algorithm>
+#include <initializer_list>
 
 namespace tsubu::sim {
 
@@ -12,17 +13,18 @@ bool nearer(const GrainRow& a, const GrainRow& b, double skin) {
 }
 
 // Sorts (i, j) pairs that come flat, i0 j0 i1 j1 …, with i in [first, last): counting by i, then the few j of each i.
-void sortPairs(const std::vector<std::int32_t>& flatA, const std::vector<std::int32_t>& flatB, std::int32_t first, std::int32_t last,
+void sortPairs(std::initializer_list<const std::vector<std::int32_t>*> flats, std::int32_t first, std::int32_t last,
                std::vector<std::int32_t>& outI, std::vector<std::int32_t>& outJ) {
-  const std::size_t pairs = (flatA.size() + flatB.size()) / 2;
+  std::size_t pairs = 0;
+  for (const auto* flat : flats) pairs += flat->size() / 2;
   std::vector<std::int32_t> start(static_cast<std::size_t>(last - first) + 1, 0);
-  for (const auto* flat : {&flatA, &flatB})
+  for (const auto* flat : flats)
     for (std::size_t k = 0; k < flat->size(); k += 2) ++start[static_cast<std::size_t>((*flat)[k] - first) + 1];
   for (std::size_t g = 1; g < start.size(); ++g) start[g] += start[g - 1];
   outI.resize(pairs);
   outJ.resize(pairs);
   std::vector<std::int32_t> next(start.begin(), start.end() - 1);
-  for (const auto* flat : {&flatA, &flatB}) {
+  for (const auto* flat : flats) {
     for (std::size_t k = 0; k < flat->size(); k += 2) {
       const auto place = static_cast<std::size_t>(next[static_cast<std::size_t>((*flat)[k] - first)]++);
       outI[place] = (*flat)[k];
@@ -45,7 +47,7 @@ void PairLists::rememberContacts() {
   if (stateSize_ == 0) return;
   for (const SlabPairs& pairs : slabs_) {
     for (std::size_t k = 0; k < pairs.i.size(); ++k) {
-      Remembered contact{pairs.i[k], pairs.j[k], {}};
+      Remembered contact{pairs.i[k], pairs.grainOf(pairs.j[k]), {}};
       bool any = false;
       for (int c = 0; c < stateSize_; ++c) {
         contact.memory[c] = pairs.memory[static_cast<std::size_t>(c) * pairs.stride + k];
@@ -56,23 +58,24 @@ void PairLists::rememberContacts() {
   }
 }
 
-// Brings what is remembered into the new order, (lower, higher) and sorted. Memory belongs to i as seen from j: it changes its sign
-// when the pair turns round.
+// Forces in the memory belong to i as seen from j: they change their sign when the pair turns round.
+void PairLists::turnRound(Remembered& contact) const {
+  std::swap(contact.i, contact.j);
+  for (int c = 0; c < stateSize_; ++c)
+    if (odd_ >> c & 1U) contact.memory[c] = -contact.memory[c];
+}
+
+// Brings what is remembered into the new order, (lower, higher) and sorted.
 void PairLists::placeRemembered(const State& state, const std::vector<std::int32_t>& newPlace) {
   std::vector<std::int32_t> start(state.size() + 1, 0);
   std::size_t kept = 0;
   for (Remembered& contact : remembered_) {
-    std::int32_t a = newPlace[static_cast<std::size_t>(contact.i)], b = newPlace[static_cast<std::size_t>(contact.j)];
-    if (a < 0 || b < 0) continue;
-    if (a > b) {
-      std::swap(a, b);
-      for (int c = 0; c < stateSize_; ++c)
-        if (odd_ >> c & 1U) contact.memory[c] = -contact.memory[c];
-    }
-    contact.i = a;
-    contact.j = b;
+    contact.i = newPlace[static_cast<std::size_t>(contact.i)];
+    contact.j = newPlace[static_cast<std::size_t>(contact.j)];
+    if (contact.i < 0 || contact.j < 0) continue;
+    if (contact.i > contact.j) turnRound(contact);
     remembered_[kept++] = contact;
-    ++start[static_cast<std::size_t>(a) + 1];
+    ++start[static_cast<std::size_t>(contact.i) + 1];
   }
   remembered_.resize(kept);
   for (std::size_t g = 1; g < start.size(); ++g) start[g] += start[g - 1];
@@ -81,8 +84,7 @@ void PairLists::placeRemembered(const State& state, const std::vector<std::int32
   remembered_.swap(sorted);
 }
 
-void PairLists::searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, std::vector<std::int32_t>& own,
-                           std::vector<std::int32_t>& before) const {
+void PairLists::searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, FlatPairs& own, FlatPairs& before) const {
   std::vector<std::int32_t> found;
   for (std::int32_t g = slabs.begin(slab); g < slabs.end(slab); ++g) {
     const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
@@ -100,42 +102,139 @@ void PairLists::searchSlab(const State& state, const Slabs& slabs, const CellGri
   }
 }
 
-void PairLists::build(const State& state, const Slabs& slabs, const CellGrid& grid, double innerSkin,
-                      const std::vector<std::int32_t>& newPlace, ThreadTeam& team) {
+// Of the two ways to see a pair across the boundary one is taken: shifts with a positive number.
+void PairLists::searchAcross(const State& state, const Slabs& slabs, const CellGrid& grid, const Periods& periods, int slab,
+                             FlatPairs& across, std::vector<Image>& images) {
+  struct Found {
+    std::int32_t grain, partner;
+    int shift;
+  };
+  std::vector<Found> found;
+  std::vector<std::int32_t> partners;
+  for (std::int32_t g = slabs.begin(slab); g < slabs.end(slab); ++g) {
+    const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
+    const Vec3 x(row.x, row.y, row.z);
+    periods.forImages(x, grid.farthest(row.radius), [&](int shift) {
+      if (shift < 0) return;
+      partners.clear();
+      grid.near(x + periods.shift(shift), row.radius, g, true, partners);
+      for (const std::int32_t partner : partners) found.push_back({g, partner, -shift});
+    });
+  }
+  const auto byImage = [](const Found& a, const Found& b) {
+    if (a.partner != b.partner) return a.partner < b.partner;
+    return a.shift != b.shift ? a.shift < b.shift : a.grain < b.grain;
+  };
+  std::sort(found.begin(), found.end(), byImage);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (k == 0 || found[k].partner != found[k - 1].partner || found[k].shift != found[k - 1].shift)
+      images.push_back({found[k].partner, periods.shift(found[k].shift)});
+    across.push_back(found[k].grain);
+    across.push_back(static_cast<std::int32_t>(images.size()) - 1);
+  }
+}
+
+// Gives every image its row, and notes for each slab which rows are images of its grains.
+void PairLists::placeImages(State& state, const Slabs& slabs) {
+  std::size_t count = 0;
+  for (const SlabPairs& slab : slabs_) count += slab.images.size();
+  const auto grains = static_cast<std::int32_t>(state.size());
+  state.setImages(count);
+  folds_.clear();
+  for (SlabPairs& slab : slabs_) {
+    slab.firstImage = grains + static_cast<std::int32_t>(folds_.size());
+    for (const Image& image : slab.images) {
+      const std::int32_t row = grains + static_cast<std::int32_t>(folds_.size());
+      folds_.push_back({image.owner, row});
+      state.material[static_cast<std::size_t>(row)] = state.material[static_cast<std::size_t>(image.owner)];
+    }
+  }
+  std::stable_sort(folds_.begin(), folds_.end(), [](const Fold& a, const Fold& b) { return a.owner < b.owner; });
+  const auto lower = [](const Fold& fold, std::int32_t grain) { return fold.owner < grain; };
+  firstFold_.clear();
+  for (const std::int32_t first : slabs.first)
+    firstFold_.push_back(static_cast<std::size_t>(std::lower_bound(folds_.begin(), folds_.end(), first, lower) - folds_.begin()));
+}
+
+void PairLists::refreshImages(State& state, const SlabPairs& slab) {
+  for (std::size_t k = 0; k < slab.images.size(); ++k) {
+    const Image& image = slab.images[k];
+    GrainRow row = state.rows[static_cast<std::size_t>(image.owner)];
+    row.x += image.shift.x(), row.y += image.shift.y(), row.z += image.shift.z();
+    state.rows[static_cast<std::size_t>(slab.firstImage) + k] = row;
+  }
+}
+
+void PairLists::foldImages(State& state, int slab) const {
+  const auto s = static_cast<std::size_t>(slab);
+  for (std::size_t k = firstFold_[s]; k < firstFold_[s + 1]; ++k) {
+    ForceRow& owner = state.forces[static_cast<std::size_t>(folds_[k].owner)];
+    ForceRow& image = state.forces[static_cast<std::size_t>(folds_[k].image)];
+    owner.fx += image.fx, owner.fy += image.fy, owner.fz += image.fz;
+    owner.qx += image.qx, owner.qy += image.qy, owner.qz += image.qz;
+    image = ForceRow{};
+  }
+}
+
+void PairLists::build(State& state, const Slabs& slabs, const CellGrid& grid, double innerSkin, const std::vector<std::int32_t>& newPlace,
+                      ThreadTeam& team, const Periods& periods) {
   const int count = slabs.count();
-  std::vector<std::vector<std::int32_t>> own(static_cast<std::size_t>(count)), before(static_cast<std::size_t>(count) + 1);
-  team.run(count, [&](int slab, int) {
-    searchSlab(state, slabs, grid, slab, own[static_cast<std::size_t>(slab)], before[static_cast<std::size_t>(slab)]);
-  });
+  std::vector<FlatPairs> own(static_cast<std::size_t>(count)), before(static_cast<std::size_t>(count) + 1), across(static_cast<std::size_t>(count));
   slabs_.assign(static_cast<std::size_t>(count), SlabPairs{});
+  team.run(count, [&](int slab, int) {
+    const auto s = static_cast<std::size_t>(slab);
+    searchSlab(state, slabs, grid, slab, own[s], before[s]);
+    if (periods.any()) searchAcross(state, slabs, grid, periods, slab, across[s], slabs_[s].images);
+  });
+  if (periods.any()) placeImages(state, slabs);
   placeRemembered(state, newPlace);
   team.run(count, [&](int slab, int) {
     const auto s = static_cast<std::size_t>(slab);
     SlabPairs& pairs = slabs_[s];
-    sortPairs(own[s], before[s + 1], slabs.begin(slab), slabs.end(slab), pairs.outerI, pairs.outerJ);
+    for (std::size_t k = 1; k < across[s].size(); k += 2) across[s][k] += pairs.firstImage;
+    sortPairs({&own[s], &before[s + 1], &across[s]}, slabs.begin(slab), slabs.end(slab), pairs.outerI, pairs.outerJ);
     filterSlab(state, pairs, innerSkin);
-    if (stateSize_ == 0 || pairs.i.empty()) return;
-    const auto lower = [](const Remembered& contact, std::int32_t grain) { return contact.i < grain; };
-    auto contact = std::lower_bound(remembered_.begin(), remembered_.end(), slabs.begin(slab), lower);
-    const auto last = std::lower_bound(contact, remembered_.end(), slabs.end(slab), lower);
-    std::size_t k = 0;
-    for (; contact != last; ++contact) {
-      while (k < pairs.i.size() && pairs.i[k] < contact->i) ++k;
-      for (std::size_t here = k; here < pairs.i.size() && pairs.i[here] == contact->i; ++here) {
-        if (pairs.j[here] != contact->j) continue;
-        for (int c = 0; c < stateSize_; ++c) pairs.memory[static_cast<std::size_t>(c) * pairs.stride + here] = contact->memory[c];
-      }
-    }
+    if (stateSize_ > 0) handMemory(pairs, slabs.begin(slab), slabs.end(slab));
   });
   remembered_.clear();
 }
 
-void PairLists::refilter(const State& state, double innerSkin, ThreadTeam& team) {
+// What is remembered goes to the same pairs in the new lists: seen from the lower grain, also where the pair is seen from the higher one
+// (across the boundary).
+void PairLists::handMemory(SlabPairs& pairs, std::int32_t first, std::int32_t last) const {
+  const auto lower = [](const Remembered& contact, std::int32_t grain) { return contact.i < grain; };
+  const auto hand = [&](const Remembered& contact, std::size_t pair) {
+    for (int c = 0; c < stateSize_; ++c) pairs.memory[static_cast<std::size_t>(c) * pairs.stride + pair] = contact.memory[c];
+  };
+  auto contact = std::lower_bound(remembered_.begin(), remembered_.end(), first, lower);
+  const auto end = std::lower_bound(contact, remembered_.end(), last, lower);
+  std::size_t k = 0;
+  for (; contact != end; ++contact) {
+    while (k < pairs.i.size() && pairs.i[k] < contact->i) ++k;
+    for (std::size_t here = k; here < pairs.i.size() && pairs.i[here] == contact->i; ++here)
+      if (pairs.j[here] == contact->j) hand(*contact, here);
+  }
+  for (std::size_t pair = 0; pair < pairs.i.size() && !pairs.images.empty(); ++pair) {
+    if (pairs.j[pair] < pairs.firstImage) continue;
+    const std::int32_t i = pairs.i[pair], j = pairs.grainOf(pairs.j[pair]), low = std::min(i, j), high = std::max(i, j);
+    for (auto old = std::lower_bound(remembered_.begin(), remembered_.end(), low, lower); old != remembered_.end() && old->i == low; ++old) {
+      if (old->j != high) continue;
+      Remembered seen = *old;
+      if (i != low) turnRound(seen);
+      hand(seen, pair);
+    }
+  }
+}
+
+void PairLists::refilter(State& state, double innerSkin, ThreadTeam& team) {
   team.run(static_cast<int>(slabs_.size()), [&](int slab, int) { filterSlab(state, slabs_[static_cast<std::size_t>(slab)], innerSkin); });
 }
 
-void PairLists::filterSlab(const State& state, SlabPairs& pairs, double innerSkin) const {
-  const SlabPairs old{{}, {}, {}, {}, std::move(pairs.outerIndex), std::move(pairs.memory), pairs.stride};
+void PairLists::filterSlab(State& state, SlabPairs& pairs, double innerSkin) const {
+  refreshImages(state, pairs);
+  const std::vector<std::int32_t> oldIndex = std::move(pairs.outerIndex);
+  const std::vector<double> oldMemory = std::move(pairs.memory);
+  const std::size_t oldStride = pairs.stride;
   pairs.i.clear();
   pairs.j.clear();
   pairs.outerIndex.clear();
@@ -152,11 +251,11 @@ void PairLists::filterSlab(const State& state, SlabPairs& pairs, double innerSki
   // Both inner lists follow the order of the outer one.
   std::size_t was = 0;
   for (std::size_t k = 0; k < pairs.outerIndex.size(); ++k) {
-    while (was < old.outerIndex.size() && old.outerIndex[was] < pairs.outerIndex[k]) ++was;
-    if (was == old.outerIndex.size()) break;
-    if (old.outerIndex[was] != pairs.outerIndex[k]) continue;
+    while (was < oldIndex.size() && oldIndex[was] < pairs.outerIndex[k]) ++was;
+    if (was == oldIndex.size()) break;
+    if (oldIndex[was] != pairs.outerIndex[k]) continue;
     for (int c = 0; c < stateSize_; ++c)
-      pairs.memory[static_cast<std::size_t>(c) * pairs.stride + k] = old.memory[static_cast<std::size_t>(c) * old.stride + was];
+      pairs.memory[static_cast<std::size_t>(c) * pairs.stride + k] = oldMemory[static_cast<std::size_t>(c) * oldStride + was];
   }
 }
 

@@ -2,24 +2,41 @@
 // Who may touch whom. Two lists: the outer one (all pairs nearer than the outer skin) is searched for rarely; the inner one (nearer
 // than the inner skin) is what every step walks, refiltered from the outer one whenever grains may have moved half the inner skin.
 // The memory of contacts lies along the inner list.
+//
+// Across a periodic boundary (docs/physics.md, W5) a grain meets the image of its partner: a row beyond those of the grains, copied from
+// its owner with a shift before every pass. The slab of the grain has its own images, so that no two slabs write to the same row;
+// after the pass, what acted on images is added to their owners in a fixed order.
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/thread_team.h"
 #include "sim/neighbours/cell_grid.h"
 #include "sim/neighbours/slabs.h"
 #include "sim/laws/memory.h"
+#include "sim/periodic.h"
 #include "sim/state.h"
 
 namespace tsubu::sim {
 
-/// The pairs whose first grain lies in one slab, ordered by first and second grain (i < j).
+/// A grain as it is seen across the boundary: at x + shift.
+struct Image {
+  std::int32_t owner;
+  Vec3 shift;
+};
+
+/// The pairs whose first grain lies in one slab, ordered by first and second row (i < j). The second may be an image.
 struct SlabPairs {
   std::vector<std::int32_t> outerI, outerJ;
   std::vector<std::int32_t> i, j, outerIndex;  ///< inner list, and where each pair is in the outer one
   std::vector<double> memory;                  ///< component c of inner pair k at memory[c * stride + k]
   std::size_t stride = 0;
+  std::vector<Image> images;
+  std::int32_t firstImage = std::numeric_limits<std::int32_t>::max();  ///< row of the first
+
+  /// The grain that a row belongs to.
+  std::int32_t grainOf(std::int32_t row) const { return row < firstImage ? row : images[static_cast<std::size_t>(row - firstImage)].owner; }
 };
 
 class PairLists {
@@ -31,10 +48,17 @@ class PairLists {
   void rememberContacts();
   /// Searches the outer lists anew (grains in slab order, grid built) and hands the remembered memory to the same pairs.
   /// `newPlace`: old place → new place, −1 for grains that are gone.
-  void build(const State& state, const Slabs& slabs, const CellGrid& grid, double innerSkin,
-             const std::vector<std::int32_t>& newPlace, ThreadTeam& team);
+  /// With `periods`, grains lie in the domain; images are made and the state gets rows for them.
+  void build(State& state, const Slabs& slabs, const CellGrid& grid, double innerSkin, const std::vector<std::int32_t>& newPlace,
+             ThreadTeam& team, const Periods& periods = {});
   /// Makes the inner lists from the outer ones; memory follows.
-  void refilter(const State& state, double innerSkin, ThreadTeam& team);
+  void refilter(State& state, double innerSkin, ThreadTeam& team);
+
+  /// Copies the present rows of the owners to the images of a slab.
+  static void refreshImages(State& state, const SlabPairs& slab);
+  /// Adds what acted on the images of a slab's grains to them, and clears it. `slab` counts the owners' slabs.
+  void foldImages(State& state, int slab) const;
+  bool hasImages() const { return !folds_.empty(); }
 
   std::vector<SlabPairs>& slabs() { return slabs_; }
   const std::vector<SlabPairs>& slabs() const { return slabs_; }
@@ -45,15 +69,25 @@ class PairLists {
     std::int32_t i, j;
     double memory[mostMemory];
   };
-  void searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, std::vector<std::int32_t>& own,
-                  std::vector<std::int32_t>& before) const;
+  using FlatPairs = std::vector<std::int32_t>;  // i0 j0 i1 j1 …
+  void turnRound(Remembered& contact) const;
+  void searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, FlatPairs& own, FlatPairs& before) const;
+  static void searchAcross(const State& state, const Slabs& slabs, const CellGrid& grid, const Periods& periods, int slab, FlatPairs& across,
+                           std::vector<Image>& images);
+  void placeImages(State& state, const Slabs& slabs);
   void placeRemembered(const State& state, const std::vector<std::int32_t>& newPlace);
-  void filterSlab(const State& state, SlabPairs& pairs, double innerSkin) const;
+  void handMemory(SlabPairs& pairs, std::int32_t first, std::int32_t last) const;
+  void filterSlab(State& state, SlabPairs& pairs, double innerSkin) const;
 
   int stateSize_;
   unsigned odd_;
   std::vector<SlabPairs> slabs_;
-  std::vector<Remembered> remembered_;
+  std::vector<Remembered> remembered_;  // between two orders; sorted by i
+  struct Fold {
+    std::int32_t owner, image;
+  };
+  std::vector<Fold> folds_;             // by owner, then image
+  std::vector<std::size_t> firstFold_;  // of each slab
 };
 
 }  // namespace tsubu::sim
