@@ -23,7 +23,7 @@ struct Motion {
 };
 
 /// Steps from one update of the orientations to the next. Fixed, so that looking at them changes nothing.
-inline constexpr std::uint64_t turnEvery = 8;
+inline constexpr std::uint64_t turnEvery = 32;
 
 /// Moves grains [first, last) by one step and clears their forces. `turn`: also bring their orientations up to date.
 Motion integrate(State& state, std::int32_t first, std::int32_t last, const Vec3& gravity, double dt, bool turn);

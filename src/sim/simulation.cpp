@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint64_t watchEvery = 16;
 
 // Neighbour lists: skins in terms of how far the fastest grain moves in a step, bounded in terms of the smallest radius.
-constexpr double outerSteps = 60, innerSteps = 6;
+constexpr double outerSteps = 120, innerSteps = 6;
 constexpr double leastOuter = 0.2, mostOuter = 0.8, leastInner = 0.02, mostInner = 0.25;
 
 }  // namespace
@@ -125,6 +125,7 @@ void Simulation::Impl::computeForces() {
   refreshLists();
   if (gravity.changes() && model.ledger) gravity.settle(momentOfMass());
 
+  walls.settle();
   accountsKnown = model.ledger || steps % watchEvery == 0;
   const auto onPairs = pairKernel(law, {classes.grains.alike, accountsKnown});
   const auto onWalls = wallKernel(law, {classes.walls.alike, accountsKnown});

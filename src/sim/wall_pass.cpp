@@ -134,11 +134,16 @@ struct WallPass::Batch {
   bool account;
   Stage& stage;
   Accounts& accounts;
+  WallContacts contacts;  // of the group at hand: too large to be made anew for each
   int count = 0;
   std::array<std::int32_t, chunkSize> grain, candidate;
   std::array<int, chunkSize> load;  // of which wall, as in SlabWalls::loads
   std::array<Vec3, chunkSize> wallVelocity, wallSpin;
 };
+
+void WallPass::settle() {
+  for (WallPlace& place : places_) place.rotation = place.pose.rotation.toRotationMatrix();
+}
 
 void WallPass::evaluateSlab(int slabNumber, const PassContext& context, WallKernel kernel, bool account, Stage& stage,
                             Accounts& accounts) {
@@ -158,24 +163,29 @@ void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, const PassContex
   const Wall& wall = (*walls_)[group.wall];
   const WallPlace& place = places_[group.wall];
   const Surface& surface = *wall.surface;
-  const Vec3 centre = centreOf(row), local = place.pose.toLocal(centre);
+  const Vec3 centre = centreOf(row), local = place.toLocal(centre);
+  const double travel2 = (local - group.centre).squaredNorm();
+  if (travel2 < group.room * group.room) return;
   const std::span<const std::uint32_t> features(slab.features.data() + group.first, static_cast<std::size_t>(group.last - group.first));
 
-  WallContacts contacts;
+  WallContacts& contacts = batch.contacts;
   surface.contacts(local, row.radius, features, contacts);
 
   // Only a centre that is no farther from a face than it has moved can have gone through it.
-  const double travel2 = (local - group.centre).squaredNorm();
   bool mayHaveCrossed = travel2 > 0.0625 * row.radius * row.radius;
   for (const WallContact& contact : contacts) mayHaveCrossed = mayHaveCrossed || contact.distance * contact.distance <= travel2;
   if (mayHaveCrossed && travel2 > 0 && surface.crossedFace(group.centre, local, features) != Surface::none)
     slab.tunnelled.push_back(group.grain);
   group.centre = local;
+  group.room = 0;
 
-  const Mat3 rotation = place.pose.rotation.toRotationMatrix();
+  const Mat3& rotation = place.rotation;
   bool anyTouched = false;
   for (std::int32_t c = group.first; c < group.last; ++c) anyTouched = anyTouched || slab.candidates[static_cast<std::size_t>(c)].touching;
-  if (contacts.empty() && !anyTouched) return;
+  if (contacts.empty() && !anyTouched) {
+    group.room = surface.clearance(local, row.radius, features);
+    return;
+  }
   if (law_.stateSize > 0 && anyTouched) handOver(surface, slab, group, contacts, rotation);
 
   // Candidates and contacts both ascend by feature. A contact that has just ended goes through the kernel once more, out of reach, so
@@ -193,7 +203,7 @@ void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, const PassContex
       const Vec3 normal = rotation * contacts[next].normal;
       candidate.normal = normal;
       d = std::max(contacts[next].distance, leastDistance * row.radius) * normal;
-      point = place.pose.toWorld(contacts[next].point);
+      point = rotation * contacts[next].point + place.pose.translation;
     } else {
       d = 2 * row.radius * candidate.normal;
       point = centre;

@@ -28,6 +28,7 @@ struct WallGroup {
   std::uint16_t wall = 0;
   std::int32_t first = 0, last = 0;  ///< in `candidates` and `features`
   Vec3 centre = Vec3::Zero();        ///< of the grain at the last evaluation, frame of the wall
+  double room = 0;                   ///< m: how far it may go from there before it can touch one of them
 };
 
 struct SlabWalls {
@@ -43,6 +44,9 @@ struct SlabWalls {
 struct WallPlace {
   Pose pose;
   Twist twist;
+  Mat3 rotation = Mat3::Identity();  ///< of the pose, while the slabs are evaluated
+
+  Vec3 toLocal(const Vec3& world) const { return rotation.transpose() * (world - pose.translation); }
 };
 
 class WallPass {
@@ -61,6 +65,8 @@ class WallPass {
   /// step that has just been made (0: none yet), so that a grain that came from behind a wall is found out.
   void build(const State& state, const Slabs& slabs, double skin, double dt, const std::vector<std::int32_t>& newPlace);
 
+  /// The walls are where they will be in this step: before the slabs are evaluated.
+  void settle();
   /// Adds the wall forces on the grains of a slab.
   void evaluateSlab(int slab, const PassContext& context, WallKernel kernel, bool account, Stage& stage, Accounts& accounts);
 

@@ -92,16 +92,25 @@ void Surface::candidates(const Vec3& centre, double reach, std::vector<std::uint
   }
   const double squaredReach = reach * reach;
   bvh_.near(centre, reach, [&](std::uint32_t feature) {
-    double squared;
-    if (feature < faceCount())
-      squared = squaredDistanceToFace(features_.faces[feature], centre, reach);
-    else if (feature < faceCount() + edgeCount())
-      squared = squaredDistanceToEdge(features_.edges[feature - faceCount()], centre);
-    else
-      squared = (features_.corners[feature - faceCount() - edgeCount()].point - centre).squaredNorm();
-    if (squared < squaredReach) found.push_back(feature);
+    if (squaredDistanceTo(feature, centre, reach) < squaredReach) found.push_back(feature);
   });
   std::sort(found.begin(), found.end());
+}
+
+double Surface::squaredDistanceTo(std::uint32_t feature, const Vec3& point, double reach) const {
+  if (feature < faceCount()) return squaredDistanceToFace(features_.faces[feature], point, reach);
+  if (feature < faceCount() + edgeCount()) return squaredDistanceToEdge(features_.edges[feature - faceCount()], point);
+  return (features_.corners[feature - faceCount() - edgeCount()].point - point).squaredNorm();
+}
+
+double Surface::clearance(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates) const {
+  // A little less than what rounding could make of it.
+  constexpr double safe = 1 - 1e-9;
+  if (asPlane()) return safe * std::max(0.0, features_.faces[0].plane.signedDistance(centre) - radius);
+  // Beyond this nobody wants to know.
+  double nearest = 4 * radius;
+  for (const std::uint32_t feature : candidates) nearest = std::min(nearest, std::sqrt(squaredDistanceTo(feature, centre, nearest)));
+  return safe * std::max(0.0, nearest - radius);
 }
 
 void Surface::contacts(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates, WallContacts& contacts) const {

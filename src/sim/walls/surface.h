@@ -62,6 +62,9 @@ class Surface {
   /// The contacts of a sphere: its nearest points with the load shared between them (shareLoad).
   void contacts(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates, WallContacts& contacts) const;
 
+  /// m: how far the centre of a sphere may go before it can touch one of the candidates; 0 when it may touch now.
+  double clearance(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates) const;
+
   /// The first face among the candidates that the straight way from one point to another (m) passes through, or `none`:
   /// a centre that did so between two steps has tunnelled.
   std::uint32_t crossedFace(const Vec3& from, const Vec3& to, std::span<const std::uint32_t> candidates) const;
@@ -80,6 +83,7 @@ class Surface {
  private:
   Surface() = default;
 
+  double squaredDistanceTo(std::uint32_t feature, const Vec3& point, double reach) const;
   bool closestOnFace(const Face& face, const Vec3& centre, double radius, WallContact& contact) const;
   bool closestOnEdge(const Edge& edge, const Vec3& centre, double radius, WallContact& contact) const;
   bool closestOnCorner(const Corner& corner, const Vec3& centre, double radius, WallContact& contact) const;
