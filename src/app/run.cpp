@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "app/diagnostics_files.h"
 #include "app/film.h"
 #include "app/interrupt.h"
 #include "app/ledger_file.h"
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 
 std::uint64_t nextMultiple(std::uint64_t step, std::uint64_t of) { return (step / of + 1) * of; }
 
-/// A run under way: the simulation, and the three things it leaves behind.
+/// A run under way: the simulation, and what it leaves behind.
 class Run {
  public:
   explicit Run(const RunOptions& options);
@@ -50,6 +51,7 @@ class Run {
   std::vector<std::string> sceneWarnings_;
   std::unique_ptr<sim::Simulation> simulation_;
   std::unique_ptr<LedgerFile> ledger_;
+  std::unique_ptr<DiagnosticsFiles> diagnostics_;
   std::unique_ptr<Film> film_;
 };
 
@@ -68,7 +70,9 @@ Run::Run(const RunOptions& options) : options_(options) {
   fs::create_directories(folder_, failed);
   if (failed) throw Error(ErrorKind::files, fmt::format("Cannot make the folder '{}': {}.", folder_.string(), failed.message()));
 
-  fs::remove(folder_ / "run.json", failed);  // of an earlier run: it would not belong to what is written now
+  // Of an earlier run: they would not belong to what is written now.
+  fs::remove(folder_ / "run.json", failed);
+  DiagnosticsFiles::remove(folder_);
 
   report_.scene = options.scene;
   report_.title = scene.title;
@@ -82,10 +86,13 @@ Run::Run(const RunOptions& options) : options_(options) {
   for (const Diagnostic& warning : odd) report_.warnings.push_back(toString(warning));
   for (const sim::Counter& counter : built.model.counters) report_.counters.push_back(counter.name);
   if (options.frames) openFilm(built, scene);
-  std::vector<std::string> movingWalls;
-  for (const sim::Wall& wall : built.model.walls)
+  std::vector<std::string> walls, movingWalls;
+  for (const sim::Wall& wall : built.model.walls) {
+    walls.push_back(wall.name);
     if (wall.body) movingWalls.push_back(wall.name);
+  }
   ledger_ = std::make_unique<LedgerFile>(folder_ / "ledger.csv", report_.counters, movingWalls);
+  if (scene.diagnostics) diagnostics_ = std::make_unique<DiagnosticsFiles>(folder_, *scene.diagnostics, std::move(walls));
   simulation_ = std::make_unique<sim::Simulation>(std::move(built.model), report_.threads);
 }
 
@@ -128,6 +135,7 @@ void Run::loop() {
     const std::uint64_t step = sim.steps();
     const bool last = step >= plan.steps;
     if (step % plan.stepsPerLedgerRow == 0 || last) ledger_->add(sim, report_.ledger);
+    if (diagnostics_ && (step % (plan.stepsPerLedgerRow * diagnostics_->every()) == 0 || last)) diagnostics_->add(sim);
     if (step % plan.stepsPerFrame == 0) writeFrame();
     for (; warned < sim.warnings().size(); ++warned) warn(sim.warnings()[warned]);
     if (last || interrupted()) return;
@@ -185,7 +193,7 @@ void Run::summarise() const {
                                  r.simulatedTime, r.steps, r.plan.timeStep, r.wallTime);
   if (r.ledger) text += fmt::format("; energy unaccounted for: {:.2g} %", 100 * r.energyResidual);
   if (r.counts.lost > 0) text += fmt::format("; {} grains lost", r.counts.lost);
-  fmt::print("{}\n{}: {} frames, ledger.csv, run.json\n", text, folder_.string(), r.frames);
+  fmt::print("{}\n{}: {} frames, ledger.csv, {}run.json\n", text, folder_.string(), r.frames, diagnostics_ ? diagnostics_->names() + ", " : "");
 }
 
 }  // namespace

@@ -138,6 +138,7 @@ sim::Model buildModel(const Scene& scene) {
   model.skin = s.skin.value_or(0);
   model.ledger = s.ledger;
   model.load = scene.colours.by == render::ColourBy::force;
+  model.contactForces = scene.diagnostics.has_value();
   model.watch = {s.overlapLimit, s.travelLimit, s.onViolation == OnViolation::stop};
   model.seed = s.seed;
   return model;

@@ -28,6 +28,8 @@ void checkNames(const Scene& scene, const PositionOf& positionOf, Findings& find
 void checkContact(const Scene& scene, const PositionOf& positionOf, Findings& findings);
 /// Intervals that do not fit, regions too small for their grains, and the like.
 void checkValues(const Scene& scene, const PositionOf& positionOf, Findings& findings);
+/// The same for what is measured.
+void checkDiagnostics(const Scene& scene, const PositionOf& positionOf, Findings& findings);
 /// The same for what acts from afar.
 void checkFields(const Scene& scene, const PositionOf& positionOf, Findings& findings);
 

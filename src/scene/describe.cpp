@@ -165,6 +165,7 @@ void describe(Form& form, Scene& scene) {
   describeWalls(form, scene);
   describeFields(form, scene);
   form.table({"output", "When frames and rows of the ledger are written."}, [&](Form& f) { describeOutput(f, scene.output); });
+  describeDiagnostics(form, scene);
   describePicture(form, scene);
 }
 

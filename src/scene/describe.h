@@ -13,6 +13,7 @@ void describe(Form& form, Scene& scene);
 void describeGrains(Form& form, Scene& scene);
 void describeWalls(Form& form, Scene& scene);
 void describeFields(Form& form, Scene& scene);
+void describeDiagnostics(Form& form, Scene& scene);
 void describePicture(Form& form, Scene& scene);
 
 /// A box or a cylinder, in the keys `box` and `cylinder`.

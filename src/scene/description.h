@@ -226,6 +226,30 @@ struct Output {
   bool operator==(const Output&) const = default;
 };
 
+/// A part of space that has its own rows.
+struct DiagnosticRegion {
+  std::string name;
+  sim::BoxRegion box;
+
+  bool operator==(const DiagnosticRegion&) const = default;
+};
+
+struct DiagnosticGrid {
+  sim::BoxRegion box;
+  std::array<std::uint64_t, 3> cells{1, 1, 1};
+
+  bool operator==(const DiagnosticGrid&) const = default;
+};
+
+/// What is written beside the ledger.
+struct Diagnostics {
+  std::uint64_t every = 1;  ///< rows of the ledger
+  std::vector<DiagnosticRegion> regions;
+  std::optional<DiagnosticGrid> grid;
+
+  bool operator==(const Diagnostics&) const = default;
+};
+
 struct Overlay {
   bool time = true, legend = true, title = true;
   int timeDecimals = 2;
@@ -245,6 +269,7 @@ struct Scene {
   std::vector<Counter> counters;
   sim::Fields fields;
   Output output;
+  std::optional<Diagnostics> diagnostics;
   render::Picture picture;
   render::Background background;
   render::Light light;

@@ -99,6 +99,7 @@ struct Model {
   double skin = 0;                       ///< m, reach of the outer neighbour list beyond contact; 0: chosen from the radii
   bool ledger = true;                    ///< keep the energy ledger
   bool load = false;                     ///< snapshots carry the sum of contact forces on each grain
+  bool contactForces = false;            ///< an Instant may be asked for: contact forces are noted when somebody looks
   Watch watch;
   std::uint64_t seed = 1;
 };

@@ -28,6 +28,8 @@ class Periods {
   bool along(int axis) const { return length_[axis] > 0; }
   /// m; 0 where space does not repeat.
   double length(int axis) const { return length_[axis]; }
+  /// m: where the domain begins along an axis that is periodic.
+  double low(int axis) const { return low_[axis]; }
 
   /// What brings a place into the domain when it is added to it, m.
   Vec3 shiftInto(const Vec3& x) const { return whole((x - low_), 0); }

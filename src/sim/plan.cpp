@@ -37,6 +37,7 @@ Plan Simulation::plan(const Model& model) {
   const bool periodic = std::find(model.periodic.begin(), model.periodic.end(), true) != model.periodic.end();
   item(periodic, "periodic domain");
   item(model.ledger, "energy ledger");
+  item(model.contactForces, "diagnostics");
 
   if (!model.streams.empty()) plan.passes.push_back("arrivals");
   if (!model.sinks.empty()) plan.passes.push_back("sinks");

@@ -112,11 +112,11 @@ PassContext Simulation::Impl::context(PairClass pairClass, bool oneClass) {
 World Simulation::Impl::world() { return {model, state, slabs, pairs, periods, team, gravity.now(), time(), {model.timeStep, lead}}; }
 
 void Simulation::Impl::step() {
-  computeForces();
+  computeForces(For::step);
   move();
 }
 
-void Simulation::Impl::computeForces() {
+void Simulation::Impl::computeForces(For whom) {
   if (forcesKnown) return;
   changeGravity();
   const double wallStep = walls.moveTo(time(), model.timeStep);
@@ -131,6 +131,8 @@ void Simulation::Impl::computeForces() {
   const auto onWalls = wallKernel(law, {classes.walls.alike, accountsKnown});
   const PassContext grainsWorld = context(classes.grains, onPairs.oneClass), wallsWorld = context(classes.walls, onWalls.oneClass);
   last.assign(static_cast<std::size_t>(slabs.count()), Accounts{});
+  const bool noting = model.contactForces && whom == For::observer;
+  acting.assign(noting ? static_cast<std::size_t>(slabs.count()) : 0, {});
   for (int parity = 0; parity < 2; ++parity) {
     team.run((slabs.count() + 1 - parity) / 2, [&](int task, int thread) {
       const int slab = 2 * task + parity;
@@ -138,9 +140,12 @@ void Simulation::Impl::computeForces() {
       SlabPairs& list = pairs.slabs()[s];
       Stage& stage = stages[static_cast<std::size_t>(thread)];
       PairLists::refreshImages(state, list);
-      onPairs.kernel(grainsWorld, {list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.data(), list.stride}, stage,
-                 last[s]);
-      walls.evaluateSlab(slab, wallsWorld, onWalls.kernel, accountsKnown, stage, last[s]);
+      const PairRange range{list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.data(), list.stride};
+      if (noting)
+        passNoting(onPairs.kernel, grainsWorld, range, traits.rolls, stage, last[s], acting[s]);
+      else
+        onPairs.kernel(grainsWorld, range, stage, last[s]);
+      walls.evaluateSlab(slab, wallsWorld, onWalls.kernel, accountsKnown, stage, last[s], noting ? &acting[s] : nullptr);
     });
   }
   if (pairs.hasImages()) team.run(slabs.count(), [&](int slab, int) { pairs.foldImages(state, slab); });
@@ -353,6 +358,7 @@ Ledger Simulation::ledger() { return impl_->ledgerNow(); }
 ContactSummary Simulation::contacts() { return impl_->contactsNow(); }
 std::vector<WallState> Simulation::movingWalls() { return impl_->movingWallsNow(); }
 void Simulation::fill(Snapshot& snapshot) { impl_->fill(snapshot); }
+Instant Simulation::instant() { return impl_->instantNow(); }
 std::uint64_t Simulation::stateHash() { return impl_->stateHash(); }
 
 }  // namespace tsubu::sim

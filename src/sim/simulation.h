@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/snapshot.h"
+#include "sim/diagnostics/instant.h"
 #include "sim/ledger.h"
 #include "sim/model.h"
 
@@ -75,6 +76,8 @@ class Simulation {
   ContactSummary contacts();
   std::vector<WallState> movingWalls();
   void fill(Snapshot& snapshot);
+  /// Grains and the forces of their contacts. Throws Error(simulation) unless the model has `contactForces`.
+  Instant instant();
   /// Hash over the grains in the order of their ids (position, velocity, orientation) and the contact memory; equal for equal bits.
   std::uint64_t stateHash();
 

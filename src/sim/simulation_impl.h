@@ -27,7 +27,9 @@ class Simulation::Impl {
 
   // The step.
   void step();
-  void computeForces();
+  /// The forces of the present instant, unless they are known. For an observer contacts are noted, if the model wants that.
+  enum class For { step, observer };
+  void computeForces(For whom = For::observer);
   double time() const { return static_cast<double>(steps) * model.timeStep; }
 
   // Who comes and goes.
@@ -39,6 +41,7 @@ class Simulation::Impl {
   ContactSummary contactsNow();
   std::vector<WallState> movingWallsNow();
   void fill(Snapshot& snapshot);
+  Instant instantNow();
   std::uint64_t stateHash();
 
   Model model;
@@ -61,6 +64,7 @@ class Simulation::Impl {
   std::vector<std::unique_ptr<ForcePass>> passes;  ///< beside contacts
   std::vector<Stage> stages;                   ///< one per thread
   std::vector<Accounts> last;                  ///< one per slab: this step's
+  std::vector<std::vector<ActingContact>> acting;  ///< one per slab: the contacts of the present instant, noted for an observer
   std::array<double, Accounts::kinds> total{};  ///< dissipated so far
 
   double outerSkin = 0, innerSkin = 0;

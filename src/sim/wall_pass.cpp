@@ -128,16 +128,19 @@ void WallPass::build(const State& state, const Slabs& slabs, double skin, double
 
 /// Contacts on the bench, and where each came from. The arrays are filled as far as `count` says.
 struct WallPass::Batch {
-  Batch(WallKernel k, bool withAccounts, Stage& bench, Accounts& sums) : kernel(k), account(withAccounts), stage(bench), accounts(sums) {}
+  Batch(WallKernel k, bool withAccounts, Stage& bench, Accounts& sums, std::vector<ActingContact>* notes)
+      : kernel(k), account(withAccounts), stage(bench), accounts(sums), acting(notes) {}
 
   WallKernel kernel;
   bool account;
   Stage& stage;
   Accounts& accounts;
+  std::vector<ActingContact>* acting;
   WallContacts contacts;  // of the group at hand: too large to be made anew for each
   int count = 0;
   std::array<std::int32_t, chunkSize> grain, candidate;
   std::array<int, chunkSize> load;  // of which wall, as in SlabWalls::loads
+  std::array<std::uint16_t, chunkSize> wall;
   std::array<Vec3, chunkSize> wallVelocity, wallSpin;
 };
 
@@ -146,13 +149,13 @@ void WallPass::settle() {
 }
 
 void WallPass::evaluateSlab(int slabNumber, const PassContext& context, WallKernel kernel, bool account, Stage& stage,
-                            Accounts& accounts) {
+                            Accounts& accounts, std::vector<ActingContact>* acting) {
   SlabWalls& slab = slabs_[static_cast<std::size_t>(slabNumber)];
   slab.lastWork = 0;
   slab.loads.assign(loaded_, WallLoad{});
   slab.tunnelled.clear();
   if (slab.groups.empty()) return;
-  Batch batch(kernel, account, stage, accounts);
+  Batch batch(kernel, account, stage, accounts, acting);
   for (WallGroup& group : slab.groups) evaluateGroup(slab, group, context, batch);
   flush(slab, context, batch);
   slab.work += slab.lastWork;
@@ -211,6 +214,7 @@ void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, const PassContex
     const Vec3 velocity = place.twist.at(point);
     batch.grain[static_cast<std::size_t>(q)] = group.grain;
     batch.load[static_cast<std::size_t>(q)] = loadOf_[group.wall];
+    batch.wall[static_cast<std::size_t>(q)] = group.wall;
     batch.candidate[static_cast<std::size_t>(q)] = c;
     batch.wallVelocity[static_cast<std::size_t>(q)] = velocity;
     batch.wallSpin[static_cast<std::size_t>(q)] = place.twist.angularVelocity;
@@ -275,6 +279,8 @@ void WallPass::flush(SlabWalls& slab, const PassContext& context, Batch& batch) 
     const auto k = static_cast<std::size_t>(q);
     WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(batch.candidate[k])];
     for (int component = 0; component < law_.stateSize; ++component) candidate.memory[component] = s.memory[component][q];
+    if (batch.acting && candidate.touching)
+      batch.acting->push_back(contactIn(s, q, batch.grain[k], ActingContact::ofWall(batch.wall[k]), law_.rolls));
     const double inverseRadius = context.rows[batch.grain[k]].inverseRadius;
     ForceRow& row = context.forces[batch.grain[k]];
     row.fx += s.fx[q], row.fy += s.fy[q], row.fz += s.fz[q];

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/diagnostics/acting_contact.h"
 #include "sim/kernel/kernels.h"
 #include "sim/laws/catalogue.h"
 #include "sim/model.h"
@@ -67,8 +68,9 @@ class WallPass {
 
   /// The walls are where they will be in this step: before the slabs are evaluated.
   void settle();
-  /// Adds the wall forces on the grains of a slab.
-  void evaluateSlab(int slab, const PassContext& context, WallKernel kernel, bool account, Stage& stage, Accounts& accounts);
+  /// Adds the wall forces on the grains of a slab, and the contacts that touch to `acting`, if there is one.
+  void evaluateSlab(int slab, const PassContext& context, WallKernel kernel, bool account, Stage& stage, Accounts& accounts,
+                    std::vector<ActingContact>* acting);
 
   /// Would a sphere at this place touch a wall?
   bool touches(const Vec3& centre, double radius) const;

@@ -88,6 +88,43 @@ class Program(unittest.TestCase):
         self.assertAlmostEqual(kinetic / (0.5 * mass * (9.81 * 0.02) ** 2), 1, places=6)
         self.assertAlmostEqual(float(row["momentum_z"]) / (-mass * 9.81 * 0.02), 1, places=6)
 
+    def table(self, name):
+        with open(self.out / name, newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertNotIn(None, [value for row in rows for value in row.values()])
+        return rows
+
+    def test_diagnostics_are_written_when_asked_for_and_change_nothing(self):
+        plain = SCENE
+        self.scene.write_text(plain + """
+[diagnostics]
+every = 5
+regions = { left = { box = { min = [-0.02, -0.02, 0], max = [0.02, 0.02, 0.1] } } }
+grid = { box = { min = [-0.02, -0.02, 0], max = [0.12, 0.02, 0.12] }, cells = { x = 7, z = 3 } }
+""")
+        result = run("run", self.scene, "-o", self.out, "--no-frames")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("diagnostics.csv, walls.csv, grid.csv", result.stdout)
+        rows, walls, cells = self.table("diagnostics.csv"), self.table("walls.csv"), self.table("grid.csv")
+        self.assertEqual([(row["time_s"], row["region"]) for row in rows],
+                         [(time, region) for time in ("0", "0.1", "0.2") for region in ("whole", "left")])
+        volume = 4 / 3 * 3.141592653589793 * 0.02**3
+        whole, left = rows[0], rows[1]
+        self.assertAlmostEqual(float(whole["volume_m3"]), 0.14 * 0.04 * 0.08)  # around the two balls
+        self.assertAlmostEqual(float(whole["solid_fraction"]), 2 * volume / (0.14 * 0.04 * 0.08))
+        self.assertEqual((whole["grains"], left["grains"], whole["temperature_m2_per_s2"]), ("2", "1", "0"))
+        self.assertAlmostEqual(float(left["solid_fraction"]), volume / (0.04 * 0.04 * 0.1))
+        self.assertEqual([row["wall"] for row in walls], ["floor"] * 3)
+        self.assertEqual(len(cells), 3 * 21)
+        filled = sum(float(row["solid_fraction"]) for row in cells[:21]) * 0.14 * 0.04 * 0.12 / 21
+        self.assertAlmostEqual(filled / (2 * volume), 1, places=6)
+
+        measured = self.report()["state_hash"]
+        self.scene.write_text(plain)
+        run("run", self.scene, "-o", self.out, "--no-frames")
+        self.assertEqual(self.report()["state_hash"], measured)
+        self.assertFalse((self.out / "diagnostics.csv").exists() or (self.out / "grid.csv").exists())
+
     def test_results_depend_on_neither_threads_nor_isa_nor_frames(self):
         hashes = set()
         for options in (["--no-frames", "--threads", 1], ["--no-frames", "--threads", 3], ["--no-frames", "--isa", "portable"], [],

@@ -158,6 +158,10 @@ flow = { kind = "pipe", axis = [1, 0, 0], point = [0, 0, 0.1], radius = "5 cm", 
 force = "1e-5 kg/s"
 torque = "1e-12 N m s"
 rate = "0.1 1/s"
+[diagnostics]
+every = 3
+regions = { left = { box = { min = [-1, -1, -1], max = [0, 1, 1] } }, right = { box = { min = [0, -1, -1], max = [1, 1, 1] } } }
+grid = { box = { min = [-1, -1, 0], max = [1, 1, "50 cm"] }, cells = { x = 4, y = 1, z = 5 } }
 [output]
 fps = "25 fps"
 frame_interval = "4 ms"
