@@ -186,12 +186,13 @@ TEST(Instant, PeriodicDomainsHaveNoBoundary) {
   for (const double shift : {0.0, 7.7e-3}) {
     Scenario s = crowd(Integrator::velocityVerlet, lawsToSee[1]);
     s.model.walls.pop_back();
+    s.model.walls.front().motion = WallMotion();
     s.model.gravity = {-200, 0, -300};
     s.model.periodic = {false, true, false};
     s.model.domain = Box(Vec3(-1, 0, -1), Vec3(1, 15.4e-3, 1));
     for (Grain& grain : s.model.grains) grain.position.y() = std::fmod(grain.position.y() + shift, 15.4e-3);
     Simulation sim = s.start(2e-6);
-    sim.advance(2000);
+    sim.advance(3000);
     const Instant instant = sim.instant();
     const Box around = boxAround(instant);
     EXPECT_DOUBLE_EQ(around.min().y(), 0);
@@ -212,7 +213,7 @@ TEST(Instant, PeriodicDomainsHaveNoBoundary) {
     for (const ActingContact& contact : instant.contacts) whole += contact.force * contact.branch.transpose() / around.volume();
     EXPECT_LT((whole - seen.back().stress.contact).norm(), 1e-12 * whole.norm());
   }
-  EXPECT_GT(seen[0].contacts.betweenGrains, 5U);
+  EXPECT_GT(seen[0].contacts.betweenGrains, 2U);
   EXPECT_NEAR(seen[0].stress.pressure(), seen[1].stress.pressure(), 1e-6 * seen[0].stress.pressure());
   EXPECT_EQ(seen[0].contacts.betweenGrains, seen[1].contacts.betweenGrains);
 }
