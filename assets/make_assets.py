@@ -129,6 +129,14 @@ def chute_profile():
 
 
 def chute():
+    """The floor, which is seen from above and takes shadows."""
+    points, _ = chute_profile()
+    h = CHUTE_WIDTH / 2
+    return [[(x0, -h, z0), (x1, -h, z1), (x1, h, z1), (x0, h, z0)] for (x0, z0), (x1, z1) in zip(points, points[1:])]
+
+
+def chute_sides():
+    """The side walls, the back wall and the end wall, which one looks through."""
     points, normals = chute_profile()
     h = CHUTE_WIDTH / 2
     rims = [(x + CHUTE_WALL * nx, z + CHUTE_WALL * nz) for (x, z), (nx, nz) in zip(points, normals)]
@@ -136,7 +144,6 @@ def chute():
     for k in range(len(points) - 1):
         (x0, z0), (x1, z1) = points[k], points[k + 1]
         (u0, w0), (u1, w1) = rims[k], rims[k + 1]
-        faces.append([(x0, -h, z0), (x1, -h, z1), (x1, h, z1), (x0, h, z0)])
         faces.append([(x1, -h, z1), (x0, -h, z0), (u0, -h, w0), (u1, -h, w1)])
         faces.append([(x0, h, z0), (x1, h, z1), (u1, h, w1), (u0, h, w0)])
     for k, side in ((0, 1), (-1, -1)):
@@ -306,6 +313,7 @@ def files():
         "drum_front.ply": ply(drum_front()),
         "drum_lifters.stl": stl(drum_lifters()),
         "chute.stl": stl(chute()),
+        "chute_sides.stl": stl(chute_sides()),
         "gate.obj": obj(gate()),
         "obstacles.glb": glb(obstacles(), slope_placement()),
         "table.gltf": gltf(table()),

@@ -46,7 +46,10 @@ INSTANTIATE_TEST_SUITE_P(Meshes, Asset,
 TEST(Assets, TheChuteHasOneFaceForEachStraightPiece) {
   const Surface chute = asset("chute.stl");
   EXPECT_TRUE(chute.faults().empty());
-  EXPECT_EQ(chute.faceCount(), 14u + 2 + 2);  // floor, sides, back and end wall
+  EXPECT_EQ(chute.faceCount(), 14u);
+  const Surface sides = asset("chute_sides.stl");
+  EXPECT_TRUE(sides.faults().empty());
+  EXPECT_EQ(sides.faceCount(), 2u + 2);  // sides, back and end wall
 }
 
 TEST(Assets, ObstaclesStandOnTheSlopeWhereTheirNodePutsThem) {
