@@ -50,6 +50,19 @@ LEG_WIDTH = 0.020
 LEG_LENGTH = 0.080
 LEG_SUNK = 0.005  # into the plate
 
+# --- silo.obj: axis z
+SILO_FACETS = 64
+SILO_RADIUS = 0.025
+SILO_HEIGHT = 0.450
+
+# --- tracks.obj: two grooves along x, their deepest lines at z = 0 and y = ±TRACK_Y
+TRACK_Y = 0.045
+TRACK_FLAT = 0.300
+TRACK_BEND = 0.250  # radius of the bends at both ends
+TRACK_ANGLE = math.radians(70)
+TRACK_FACETS = 42
+GROOVE = 0.018  # half the width of a groove, and its depth: both sides at 45°
+
 
 def circle(radius, count):
     return [(radius * math.cos(2 * math.pi * k / count), radius * math.sin(2 * math.pi * k / count)) for k in range(count)]
@@ -189,6 +202,32 @@ def table():
     return faces
 
 
+def silo():
+    def ring(z):
+        return [(x, y, z) for x, y in circle(SILO_RADIUS, SILO_FACETS)]
+
+    return band(ring(0), ring(SILO_HEIGHT))
+
+
+def groove(y):
+    """A bend down, a flat piece, a bend up; the sides are planar in every segment."""
+    points = []
+    for k in range(TRACK_FACETS + 1):
+        angle = TRACK_ANGLE * (k / TRACK_FACETS)
+        points.append((TRACK_FLAT / 2 + TRACK_BEND * math.sin(angle), TRACK_BEND * (1 - math.cos(angle)), -math.sin(angle), math.cos(angle)))
+    points = [(-x, z, -nx, nz) for x, z, nx, nz in points[::-1]] + points
+    faces = []
+    for (x0, z0, u0, w0), (x1, z1, u1, w1) in zip(points, points[1:]):
+        for side in (-GROOVE, GROOVE):
+            rim0, rim1 = (x0 + GROOVE * u0, y + side, z0 + GROOVE * w0), (x1 + GROOVE * u1, y + side, z1 + GROOVE * w1)
+            faces.append([(x0, y, z0), (x1, y, z1), rim1, rim0] if side > 0 else [(x1, y, z1), (x0, y, z0), rim0, rim1])
+    return faces
+
+
+def tracks():
+    return groove(-TRACK_Y) + groove(TRACK_Y)
+
+
 # --- writers ---------------------------------------------------------------------------------------------------------------------------
 
 
@@ -317,6 +356,8 @@ def files():
         "gate.obj": obj(gate()),
         "obstacles.glb": glb(obstacles(), slope_placement()),
         "table.gltf": gltf(table()),
+        "silo.obj": obj(silo()),
+        "tracks.obj": obj(tracks()),
     }
 
 

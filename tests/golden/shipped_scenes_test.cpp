@@ -26,7 +26,8 @@ struct Shot {
 };
 
 // Early enough to be quick, late enough for something to have happened.
-const std::vector<Shot> shots{{"hopper", 0.0, 0.12}, {"avalanche", 0.0, 0.12}, {"drum", 0.0, 0.12}, {"bouncing", 0.2, 1.0}};
+const std::vector<Shot> shots{{"hopper", 0.0, 0.12}, {"avalanche", 0.0, 0.12}, {"drum", 0.0, 0.12}, {"bouncing", 0.2, 1.0},
+                              {"cradle", 0.0, 0.4}, {"silo", 0.1, 0.3}};
 
 class ShippedScene : public testing::TestWithParam<Shot> {};
 

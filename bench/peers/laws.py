@@ -1,0 +1,270 @@
+#!/usr/bin/env python3
+"""LIGGGHTS and LAMMPS as witnesses for other laws than that of the bed: laws.py [--tsubu PROGRAM] [-o FOLDER]
+
+Some hundred grains, thrown together in five plane walls, go through the same 500 steps in all codes; the script prints by how much the
+kinetic energies (of translation) differ. Early on, because a granular flow is chaotic: correct codes drift apart by a factor of ten
+every few hundred steps. Where two codes do not mean quite the same by a law, the case says so, and the difference is what it is.
+"""
+import argparse
+import csv
+import math
+import random
+import re
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import bed
+
+ROOT = Path(__file__).resolve().parents[2]
+STEPS, EVERY, DT = 500, 100, 1e-6
+YOUNG, POISSON, FRICTION, RESTITUTION, ROLLING = 5e7, 0.3, 0.4, 0.7, 0.05
+STIFFNESS, TANGENTIAL = 4000.0, 1200.0
+DAMPING_RATE, TANGENTIAL_DAMPING_RATE = 900.0, 500.0
+AIM = 2e-4
+
+
+@dataclass
+class Case:
+    name: str
+    note: str
+    liggghts: tuple  # model and its properties, or empty
+    lammps: str      # pair_coeff of pair granular, or empty
+    contact: str     # tables of tsubu
+
+
+def damping_ratio(restitution):
+    """ζ of an oscillator with this restitution, tension allowed."""
+    log = math.log(restitution)
+    return -log / math.sqrt(math.pi**2 + log**2)
+
+
+def restitution_like_tsuji(e):
+    """LAMMPS' damping tsuji is a polynomial in e, η = α √(m k_n); tsubu's η is √5 ζ √(m k_n). The e of tsubu with the same η."""
+    alpha = 1.2728 - 4.2783 * e + 11.087 * e**2 - 22.348 * e**3 + 27.467 * e**4 - 18.022 * e**5 + 4.8218 * e**6
+    zeta = alpha / math.sqrt(5)
+    return math.exp(-math.pi * zeta / math.sqrt(1 - zeta**2))
+
+
+def hertz(more="", e=RESTITUTION, tangential="mindlin", friction=FRICTION, factor=1.0):
+    return f"""[contact]
+normal = "hertz"
+tangential = "{tangential}"
+tension = true
+{more}
+[materials.glass]
+density = {bed.DENSITY}
+young_modulus = {YOUNG}
+poisson_ratio = {POISSON}
+[pairs]
+restitution = {e}
+friction = {friction}
+tangential_damping_factor = {factor}
+"""
+
+
+def linear(more="", friction=FRICTION):
+    return f"""[contact]
+tension = true
+{more}
+[materials.glass]
+density = {bed.DENSITY}
+[pairs]
+normal_stiffness = {STIFFNESS}
+tangential_stiffness = {TANGENTIAL}
+normal_damping_rate = {DAMPING_RATE}
+tangential_damping_rate = {TANGENTIAL_DAMPING_RATE}
+friction = {friction}
+rolling_friction = {ROLLING}
+"""
+
+
+def properties(**values):
+    material = ("youngsModulus", "poissonsRatio")
+    return "".join(f"fix {name} all property/global {name} {'peratomtype' if name in material else 'peratomtypepair 1'} {value}\n"
+                   for name, value in values.items())
+
+
+def hertz_properties(friction=FRICTION):
+    return properties(youngsModulus=YOUNG, poissonsRatio=POISSON, coefficientRestitution=RESTITUTION, coefficientFriction=friction)
+
+
+def linear_properties(friction=FRICTION, **more):
+    return properties(kn=STIFFNESS, kt=TANGENTIAL, gamman=DAMPING_RATE, gammat=TANGENTIAL_DAMPING_RATE, coefficientFriction=friction, **more)
+
+
+def granular(tangential, friction=FRICTION):
+    return f"hertz/material {YOUNG} {RESTITUTION} {POISSON} tangential {tangential} NULL 1.0 {friction} damping tsuji"
+
+
+SAME = "the same law"
+STICKS = 100.0  # a friction that no contact exceeds
+RADII = "damping matched; LAMMPS takes the slip at the radii, tsubu at the contact point, which the overlap brings nearer"
+CUT = "at the Coulomb limit tsubu cuts spring and dashpot alike (T2), the peer the spring alone"
+
+
+def cases():
+    """Name, what to know of it, and what each code is told."""
+    # LAMMPS damps the slip as the normal motion, η_t = η_n; tsubu and LIGGGHTS with √(k_t/S) of it, here √(4 G*/E*).
+    as_lammps = {"e": restitution_like_tsuji(RESTITUTION), "factor": math.sqrt((2 - POISSON) / (2 * (1 - POISSON)))}
+    rolling = {"coefficientRollingFriction": ROLLING}
+    return [
+        Case("linear, sticking", SAME, ("hooke/stiffness tangential history", linear_properties(STICKS)), "", linear(friction=STICKS)),
+        Case("linear, sliding", CUT, ("hooke/stiffness tangential history", linear_properties()), "", linear()),
+        Case("Hertz, smooth", SAME, ("hertz tangential off", hertz_properties()), "", hertz(tangential="none")),
+        Case("Hertz and Mindlin, sticking", "LIGGGHTS keeps a displacement, whose force follows a stiffness that rises; tsubu's does not (T8)",
+             ("hertz tangential history", hertz_properties(STICKS)), "", hertz(friction=STICKS)),
+        Case("Hertz and Mindlin, sliding", "both", ("hertz tangential history", hertz_properties()), "", hertz()),
+        Case("Hertz and Mindlin rescaled, sticking", RADII, "", granular("mindlin_rescale/force", STICKS), hertz(friction=STICKS, **as_lammps)),
+        Case("Hertz and Mindlin not rescaled, sticking", RADII, "", granular("mindlin/force", STICKS),
+             hertz("rescale = false", friction=STICKS, **as_lammps)),
+        Case("Hertz and Mindlin rescaled, sliding", CUT, "", granular("mindlin_rescale/force"), hertz(**as_lammps)),
+        Case("linear, sticking, rolling cdt", "LIGGGHTS takes the spring's part of the normal force for the limit, tsubu all of it",
+             ("hooke/stiffness tangential history rolling_friction cdt", linear_properties(STICKS, **rolling)), "",
+             linear('rolling = "constant"', STICKS)),
+        Case("linear, sticking, rolling epsd", "the limit as for cdt",
+             ("hooke/stiffness tangential history rolling_friction epsd", linear_properties(STICKS, **rolling, coefficientRollingViscousDamping=0.3)), "",
+             linear('rolling = "elastic_plastic"', STICKS)),
+    ]
+
+
+def crowd():
+    """Grains of three sizes on a loose lattice, thrown at each other."""
+    numbers = random.Random(3)
+    grains = []
+    for i in range(9):
+        for j in range(9):
+            for k in range(6):
+                radius = numbers.choice((0.0018, 0.0020, 0.0022))
+                position = tuple(0.0046 * (n + 0.5) + numbers.uniform(-5e-5, 5e-5) for n in (i, j, k))
+                grains.append(bed.Grain(radius, position, tuple(numbers.uniform(-1, 1) for _ in range(3)), tuple(numbers.uniform(-150, 150) for _ in range(3))))
+    return grains
+
+
+def planes():
+    return [("z", "zplane 0.0"), ("x1", "xplane 0.0"), ("x2", f"xplane {bed.SIDE}"), ("y1", "yplane 0.0"), ("y2", f"yplane {bed.SIDE}")]
+
+
+def liggghts(case, folder, grains):
+    model, fixes = case.liggghts
+    bed.write_data(folder / "crowd.data", grains, "crowd", False)
+    walls = "".join(f"fix wall_{name} all wall/gran model {model} primitive type 1 {plane}\n" for name, plane in planes())
+    (folder / "in.case").write_text(f"""\
+atom_style granular
+atom_modify map array
+boundary f f f
+newton off
+communicate single vel yes
+units si
+neighbor 0.0004 bin
+neigh_modify delay 0
+read_data crowd.data
+{fixes}pair_style gran model {model}
+pair_coeff * *
+timestep {DT}
+fix gravity all gravity {bed.GRAVITY} vector {" ".join(map(str, bed.GRAVITY_DIRECTION))}
+{walls}fix motion all nve/sphere
+thermo_style custom step atoms ke
+thermo_modify format float %.12g
+thermo {EVERY}
+run {STEPS}
+""")
+    return energies("liggghts", folder)
+
+
+def lammps(case, folder, grains):
+    bed.write_data(folder / "crowd.data", grains, "crowd", True)
+    walls = "".join(f"fix wall_{name} all wall/gran granular {case.lammps} {plane.replace(' 0.0', ' 0.0 NULL') if plane.endswith(' 0.0') else plane.replace(' ', ' NULL ')}\n"
+                    for name, plane in planes())
+    (folder / "in.case").write_text(f"""\
+units si
+atom_style sphere
+boundary f f f
+newton off
+comm_modify vel yes
+neighbor 0.0004 bin
+neigh_modify delay 0 every 1 check yes
+read_data crowd.data
+pair_style granular
+pair_coeff * * {case.lammps}
+fix gravity all gravity {bed.GRAVITY} vector {" ".join(map(str, bed.GRAVITY_DIRECTION))}
+fix motion all nve/sphere
+{walls}timestep {DT}
+thermo_style custom step atoms ke
+thermo_modify format float %.12g
+thermo {EVERY}
+run {STEPS}
+""")
+    return energies("lmp", folder)
+
+
+def call(command, folder):
+    done = subprocess.run(command, cwd=folder, input="", stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))} failed:\n" + "\n".join(done.stdout.splitlines()[-15:]))
+    return done.stdout
+
+
+def energies(program, folder):
+    text = call([program, "-in", "in.case", "-log", "none"], folder)
+    return {int(step): float(energy) for step, energy in re.findall(r"^\s*(\d+)\s+\d+\s+([\d.e+-]+)\s*$", text, re.M)}
+
+
+def tsubu(case, folder, grains, program):
+    bed.write_csv(folder / "crowd.csv", grains)
+    length = math.sqrt(sum(c**2 for c in bed.GRAVITY_DIRECTION))
+    walls = "".join(f"[walls.{name}]\nplane = {{ point = {point}, normal = {normal} }}\n"
+                    for name, point, normal in [("floor", [0, 0, 0], [0, 0, 1]), ("left", [0, 0, 0], [1, 0, 0]),
+                                                ("right", [bed.SIDE, 0, 0], [-1, 0, 0]), ("front", [0, 0, 0], [0, 1, 0]),
+                                                ("back", [0, bed.SIDE, 0], [0, -1, 0])])
+    (folder / "crowd.toml").write_text(f"""\
+[simulation]
+end = {(STEPS + 1) * DT!r}
+gravity = {[bed.GRAVITY * c / length for c in bed.GRAVITY_DIRECTION]}
+integrator = "symplectic_euler"
+time_step = {DT}
+overlap_limit = 0.3
+{case.contact}[grains.crowd]
+source = "file"
+file = "crowd.csv"
+{walls}[output]
+frame_interval = {EVERY * DT!r}
+ledger_interval = {DT}
+""")
+    call([program, "run", "crowd.toml", "-o", "tsubu", "--no-frames", "--threads", "1"], folder)
+    with open(folder / "tsubu" / "ledger.csv", encoding="utf-8", newline="") as file:
+        own = {round(float(row["time_s"]) / DT): float(row["kinetic_bulk_J"]) + float(row["kinetic_fluctuation_J"]) for row in csv.DictReader(file)}
+    # Velocities of symplectic Euler are half a step old where the peers bring theirs up to date.
+    return {step: 0.5 * (own[step] + own[step + 1]) if step > 0 else own[0] for step in own if step + 1 in own}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--tsubu", default=str(ROOT / "build/release/src/app/tsubu"), help="the program")
+    parser.add_argument("-o", "--output", type=Path, default=ROOT / "out/laws", help="directory for inputs and results")
+    arguments = parser.parse_args()
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    grains = crowd()
+    print(f"{len(grains)} grains; difference of tsubu's kinetic energy after {EVERY} … {STEPS} steps; the aim for the same law is {AIM:.2%} after {STEPS}")
+    worst = 0.0
+    for case in cases():
+        for name, program, run, told in (("LIGGGHTS", "liggghts", liggghts, case.liggghts), ("LAMMPS", "lmp", lammps, case.lammps)):
+            if not told:
+                continue
+            if not shutil.which(program):
+                print(f"{case.name}: left out, there is no {name} (apt-get install {name.lower()})")
+                continue
+            theirs = run(case, arguments.output, grains)
+            ours = tsubu(case, arguments.output, grains, str(Path(arguments.tsubu).resolve()))
+            steps = sorted(set(theirs) & set(ours))
+            print(f"{case.name} ({case.note})\n  " + "  ".join(f"{step}: {ours[step] / theirs[step] - 1:+.4%}" for step in steps if step > 0) +
+                  f"   energy left {ours[STEPS] / ours[0]:.2f}")
+            if case.note.startswith(SAME):
+                worst = max(worst, abs(ours[STEPS] / theirs[STEPS] - 1))
+    return 0 if worst < AIM else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
