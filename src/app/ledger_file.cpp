@@ -43,13 +43,13 @@ std::string noEnergies() {
 
 }  // namespace
 
-LedgerFile::LedgerFile(const std::filesystem::path& path, const std::vector<std::string>& counters,
-                       const std::vector<std::string>& movingWalls)
-    : file_(std::fopen(path.c_str(), "w")), path_(path.string()), crossed_(counters.size(), 0) {
+LedgerFile::LedgerFile(const std::filesystem::path& path, const LedgerColumns& asked)
+    : file_(std::fopen(path.c_str(), "w")), path_(path.string()), heat_(asked.heat), crossed_(asked.counters.size(), 0) {
   if (!file_) throw Error(ErrorKind::files, fmt::format("Cannot write '{}': {}.", path_, std::strerror(errno)));
   std::string header = columns;
-  for (const std::string& counter : counters) header += fmt::format(",counted_{0},rate_{0}_per_s", counter);
-  for (const std::string& wall : movingWalls) header += fmt::format(",{0}_way_m,{0}_speed_m_per_s,{0}_load_N", wall);
+  for (const std::string& counter : asked.counters) header += fmt::format(",counted_{0},rate_{0}_per_s", counter);
+  for (const std::string& wall : asked.movingWalls) header += fmt::format(",{0}_way_m,{0}_speed_m_per_s,{0}_load_N", wall);
+  if (heat_) header += ",heat_J,heat_from_walls_J,heat_inserted_J,heat_removed_J";
   fmt::print(file_, "{}\n", header);
 }
 
@@ -68,6 +68,8 @@ void LedgerFile::add(sim::Simulation& simulation, bool ledger) {
     row += fmt::format(",{},{:.6g}", counts.crossed[c], rate);
   }
   for (const sim::WallState& wall : simulation.movingWalls()) row += fmt::format(",{:.9g},{:.9g},{:.9g}", wall.way, wall.speed, wall.load);
+  if (heat_ && ledger) row += fmt::format(",{:.12g},{:.12g},{:.12g},{:.12g}", now.heat.stored, now.heat.fromWalls, now.heat.inserted, now.heat.removed);
+  if (heat_ && !ledger) row += ",,,,";
   crossed_ = counts.crossed;
   lastTime_ = time;
   if (ledger && rows_ > 0) worst_ = std::max(worst_, now.residualFraction());

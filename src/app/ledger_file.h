@@ -10,11 +10,17 @@
 
 namespace tsubu::app {
 
+/// The columns that not every scene has.
+struct LedgerColumns {
+  std::vector<std::string> counters;     ///< names of the planes that count, two columns each
+  std::vector<std::string> movingWalls;  ///< of the walls that move under load, three each
+  bool heat = false;                     ///< four
+};
+
 class LedgerFile {
  public:
-  /// Writes the header. Throws Error(files). `counters`: names of the planes that count, one pair of columns each; `movingWalls`: of the
-  /// walls that move under load, three columns each.
-  LedgerFile(const std::filesystem::path& path, const std::vector<std::string>& counters, const std::vector<std::string>& movingWalls);
+  /// Writes the header. Throws Error(files).
+  LedgerFile(const std::filesystem::path& path, const LedgerColumns& asked);
   ~LedgerFile();
   LedgerFile(const LedgerFile&) = delete;
   LedgerFile& operator=(const LedgerFile&) = delete;
@@ -27,6 +33,7 @@ class LedgerFile {
  private:
   std::FILE* file_;
   std::string path_;
+  bool heat_;
   std::vector<std::int64_t> crossed_;
   double lastTime_ = 0;
   std::size_t rows_ = 0;

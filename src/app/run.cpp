@@ -86,12 +86,13 @@ Run::Run(const RunOptions& options) : options_(options) {
   for (const Diagnostic& warning : odd) report_.warnings.push_back(toString(warning));
   for (const sim::Counter& counter : built.model.counters) report_.counters.push_back(counter.name);
   if (options.frames) openFilm(built, scene);
-  std::vector<std::string> walls, movingWalls;
+  LedgerColumns columns{report_.counters, {}, built.model.heat};
+  std::vector<std::string> walls;
   for (const sim::Wall& wall : built.model.walls) {
     walls.push_back(wall.name);
-    if (wall.body) movingWalls.push_back(wall.name);
+    if (wall.body) columns.movingWalls.push_back(wall.name);
   }
-  ledger_ = std::make_unique<LedgerFile>(folder_ / "ledger.csv", report_.counters, movingWalls);
+  ledger_ = std::make_unique<LedgerFile>(folder_ / "ledger.csv", columns);
   if (scene.diagnostics) diagnostics_ = std::make_unique<DiagnosticsFiles>(folder_, *scene.diagnostics, std::move(walls));
   simulation_ = std::make_unique<sim::Simulation>(std::move(built.model), report_.threads);
 }

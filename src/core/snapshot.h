@@ -21,6 +21,7 @@ struct Snapshot {
   std::vector<Vec3> velocity;            ///< m/s
   std::vector<Vec3> angularVelocity;     ///< rad/s; empty when rotation is not modelled
   std::vector<Quat> orientation;         ///< empty when rotation is not modelled
+  std::vector<double> temperature;       ///< K; empty when heat is not modelled
   std::vector<double> load;              ///< N: sum of the normal contact forces on the grain; empty unless asked for
 
   std::vector<Pose> walls;               ///< one per visible wall, in the order of the scene

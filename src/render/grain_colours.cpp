@@ -28,6 +28,9 @@ std::vector<double> valuesOf(ColourBy by, const Snapshot& snapshot) {
   } else if (by == ColourBy::angularVelocity) {
     require(snapshot.angularVelocity.size() == n, "angular velocity", "the scene does not model rotation");
     for (std::size_t k = 0; k < n; ++k) values[k] = snapshot.angularVelocity[k].norm();
+  } else if (by == ColourBy::temperature) {
+    require(snapshot.temperature.size() == n, "temperature", "the scene does not model heat");
+    values = snapshot.temperature;
   } else {
     require(snapshot.load.size() == n, "force", "the snapshot has no contact forces");
     values = snapshot.load;
@@ -51,7 +54,7 @@ Range rangeOf(ColourBy by, const std::vector<double>& values) {
     low = std::min(low, v), high = std::max(high, v);
   }
   if (!(high > 0)) return {0, 1};
-  if (by != ColourBy::radius) return {0, roundedUp(high)};
+  if (by != ColourBy::radius && by != ColourBy::temperature) return {0, roundedUp(high)};
   return low < high ? Range{low, high} : Range{0.5 * low, 1.5 * high};
 }
 
@@ -71,6 +74,7 @@ Legend legendOf(const Grains& style, const std::vector<double>& values) {
     case ColourBy::force:
       legend.quantity = "force", legend.unit = size < 1 ? "mN" : "N", legend.scale = size < 1 ? 1e-3 : 1;
       break;
+    case ColourBy::temperature: legend.quantity = "temperature", legend.unit = "K"; break;
     default: legend.quantity = "angular velocity", legend.unit = "rad/s"; break;
   }
   return legend;

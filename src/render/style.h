@@ -134,13 +134,14 @@ using Camera = std::variant<AutoCamera, FixedCamera, OrbitCamera, KeyFrameCamera
 
 // --- grains -------------------------------------------------------------------------------------------------------------
 
-enum class ColourBy { uniform, material, speed, radius, force, angularVelocity };
-inline constexpr std::array<Word<ColourBy>, 6> colourByWords{{{"uniform", ColourBy::uniform},
+enum class ColourBy { uniform, material, speed, radius, force, angularVelocity, temperature };
+inline constexpr std::array<Word<ColourBy>, 7> colourByWords{{{"uniform", ColourBy::uniform},
                                                               {"material", ColourBy::material},
                                                               {"speed", ColourBy::speed},
                                                               {"radius", ColourBy::radius},
                                                               {"force", ColourBy::force},
-                                                              {"angular_velocity", ColourBy::angularVelocity}}};
+                                                              {"angular_velocity", ColourBy::angularVelocity},
+                                                              {"temperature", ColourBy::temperature}}};
 
 /// All perceptually uniform; `vik` is diverging, for a range whose middle means something.
 enum class ColourMap { viridis, cividis, batlow, vik };

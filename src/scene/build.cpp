@@ -34,6 +34,11 @@ void buildMaterials(const Scene& scene, sim::Model& model) {
   }
 }
 
+// K; nothing reads it where heat is not modelled.
+double temperatureOf(const Scene& scene, const GrainSource& source) {
+  return source.temperature.value_or(scene.heat ? scene.heat->temperature : 0.0);
+}
+
 sim::Stream buildStream(const Scene& scene, const GrainSource& source, const Inlet& inlet) {
   sim::Stream stream;
   stream.name = source.name;
@@ -44,6 +49,7 @@ sim::Stream buildStream(const Scene& scene, const GrainSource& source, const Inl
   stream.velocitySpread = source.velocitySpread;
   stream.angularVelocity = source.spin;
   stream.material = static_cast<std::uint16_t>(materialIndex(scene, source.material));
+  stream.temperature = temperatureOf(scene, source);
   stream.start = inlet.start;
   stream.end = inlet.end;
   if (inlet.count) stream.count = *inlet.count;
@@ -55,6 +61,7 @@ void buildGrains(const Scene& scene, sim::Model& model) {
   for (const GrainSource& source : scene.grains) {
     first.push_back(model.grains.size());
     placeGrains(scene, source, model.grains);
+    for (std::size_t g = first.back(); g < model.grains.size(); ++g) model.grains[g].temperature = temperatureOf(scene, source);
     if (const auto* inlet = std::get_if<Inlet>(&source.from)) model.streams.push_back(buildStream(scene, source, *inlet));
   }
   refuseOverlaps(scene, model.grains, first);
@@ -101,6 +108,7 @@ void buildWalls(const Scene& scene, Built& built) {
     made.name = wall.name;
     made.motion = motionOf(wall);
     made.body = wall.body;
+    made.temperature = wall.temperature;
     made.material = static_cast<std::uint16_t>(materialIndex(scene, wall.material));
     TriangleMesh seen;
     if (const auto* plane = std::get_if<PlaneShape>(&wall.shape)) {
@@ -130,6 +138,7 @@ sim::Model buildModel(const Scene& scene) {
   model.integrator = s.integrator;
   model.gravity = s.gravity;
   model.fields = scene.fields;
+  model.heat = scene.heat.has_value();
   for (const Sink& sink : scene.sinks) model.sinks.push_back({sink.name, sink.region});
   for (const Counter& counter : scene.counters)
     model.counters.push_back({counter.name, counter.point, counter.normal.normalized(), counter.radius});

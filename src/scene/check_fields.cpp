@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "scene/check.h"
+#include "scene/pairs.h"
 
 namespace tsubu::scene {
 
@@ -18,9 +19,36 @@ class FieldCheck {
     }
     if (scene_.fields.drag) drag(*scene_.fields.drag);
     if (scene_.fields.damping) damping(*scene_.fields.damping);
+    heat();
   }
 
  private:
+  // Every material that takes part in the exchange of heat must say how well it conducts, and those of grains how much they hold.
+  void heat() {
+    const auto lacks = [&](std::size_t material, sim::Property property, std::string_view who) {
+      const Material& m = scene_.materials[material];
+      if (m.properties[property]) return;
+      complain({"materials", m.name}, fmt::format("Heat flows {} '{}', which has no {}.", who, m.name, sim::infoOf(property).key),
+               property == sim::Property::conductivity ? "for instance conductivity = \"0.8 W/(m K)\"" : "for instance heat_capacity = \"800 J/(kg K)\"");
+    };
+    if (scene_.heat) {
+      for (const std::size_t material : grainMaterials(scene_)) {
+        lacks(material, sim::Property::conductivity, "through grains of");
+        lacks(material, sim::Property::heatCapacity, "through grains of");
+      }
+      for (const Wall& wall : scene_.walls)
+        if (wall.temperature) lacks(materialIndex(scene_, wall.material), sim::Property::conductivity, "from a wall of");
+      return;
+    }
+    constexpr std::string_view none = "Heat is not modelled: the temperature has no effect.", hint = "write [heat]";
+    for (const GrainSource& source : scene_.grains)
+      if (source.temperature) complain({"grains", source.name, "temperature"}, std::string(none), std::string(hint));
+    for (const Wall& wall : scene_.walls)
+      if (wall.temperature) complain({"walls", wall.name, "temperature"}, std::string(none), std::string(hint));
+    if (scene_.colours.by == render::ColourBy::temperature)
+      complain({"colours", "by"}, "Heat is not modelled: there is no temperature to show.", std::string(hint));
+  }
+
   void complain(const Path& path, std::string sentence, std::string hint = {}) {
     findings_.errors.push_back({positionOf_(path), std::move(sentence), std::move(hint)});
   }

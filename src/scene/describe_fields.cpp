@@ -98,6 +98,11 @@ void describeOptional(Form& form, const Field& field, std::optional<T>& value, D
 }  // namespace
 
 void describeFields(Form& form, Scene& scene) {
+  describeOptional(form, {"heat", "Heat flows between grains that touch. Materials then need conductivity and heat_capacity."}, scene.heat,
+                   [](Form& f, Heat& heat) {
+                     f.quantity({"temperature", "Of grains at the start, where their source says nothing."}, heat.temperature, temperature,
+                                positive);
+                   });
   form.table({"fields", "What acts on grains from afar. Each part is computed only when it is written."}, [&](Form& f) {
     f.list({"gravity", "A table, or an array of them that are applied one after the other. Absent: gravity stays as it is."},
            plainEntries(scene.fields.gravity, describeChange));

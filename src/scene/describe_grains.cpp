@@ -138,6 +138,7 @@ void describeSource(Form& form, GrainSource& source) {
   form.quantity({"velocity_spread", "Largest random deviation of each component of the velocity."}, source.velocitySpread, velocity,
                 notNegative);
   form.vector({"spin", "Initial angular velocity."}, source.spin, angularVelocity);
+  form.optionalQuantity({"temperature", "At the start; needs [heat]. Absent: that of [heat]."}, source.temperature, temperature, positive);
   describeMisplaced(form);
 }
 

@@ -74,6 +74,8 @@ Dimension dimensionOfColour(render::ColourBy by) {
       return force;
     case render::ColourBy::angularVelocity:
       return angularVelocity;
+    case render::ColourBy::temperature:
+      return temperature;
     case render::ColourBy::uniform:
     case render::ColourBy::material:
       break;

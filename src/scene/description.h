@@ -20,6 +20,13 @@ namespace tsubu::scene {
 
 inline constexpr double forever = std::numeric_limits<double>::infinity();
 
+/// Heat conduction; absent from a scene that does not ask for it.
+struct Heat {
+  double temperature = 293.15;  ///< K, of grains whose source says nothing
+
+  bool operator==(const Heat&) const = default;
+};
+
 /// The properties that a scene gives, by sim::Property.
 struct Properties {
   std::array<std::optional<double>, sim::propertyCount> values;
@@ -138,6 +145,7 @@ struct GrainSource {
   Vec3 velocity = Vec3::Zero();  ///< m/s; added to what a file says
   double velocitySpread = 0;     ///< m/s: largest random deviation of each component
   Vec3 spin = Vec3::Zero();      ///< rad/s; added to what a file says
+  std::optional<double> temperature;  ///< K; absent: that of [heat]
 
   bool operator==(const GrainSource&) const = default;
 };
@@ -195,6 +203,7 @@ struct Wall {
   std::string material;  ///< empty: the only one
   std::vector<Motion> motions;
   std::optional<sim::WallBody> body;
+  std::optional<double> temperature;  ///< K
   Look look = Look::automatic;
   std::optional<render::Colour> colour;
   std::optional<double> opacity;  ///< of a translucent wall
@@ -268,6 +277,7 @@ struct Scene {
   std::vector<Sink> sinks;
   std::vector<Counter> counters;
   sim::Fields fields;
+  std::optional<Heat> heat;
   Output output;
   std::optional<Diagnostics> diagnostics;
   render::Picture picture;

@@ -161,7 +161,7 @@ constexpr std::string_view preface = R"(# Scene reference
 This page is printed by `tsubu reference` from the description by which tsubu reads scenes.
 
 A scene is a [TOML](https://toml.io) file. A quantity is a number in SI units, or a text with a unit: `"2 mm"`, `"1 GPa"`, `"35 deg"`,
-`"12 rpm"`, `"2.5 g/cm^3"`, `"0.2 kg/s"`. Units: m, g, s, N, Pa, J, W, Hz, rad, L and bar with the prefixes p n u µ m c d h k M G T; min, h,
+`"12 rpm"`, `"2.5 g/cm^3"`, `"0.2 kg/s"`. Units: m, g, s, N, Pa, J, W, Hz, K, A, T, rad, L and bar with the prefixes p n u µ m c d h k M G T; min, h,
 t, deg, °, rev, rpm, fps, grains, frames, %. They combine by product, quotient and power; after a `/` a product needs parentheses. A
 frequency is not an angular velocity.
 

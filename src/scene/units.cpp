@@ -48,6 +48,9 @@ constexpr Unit units[] = {
     {"L", {1, 1e3}, {{3, 0, 0, 0}}, true},
     {"l", {1, 1e3}, {{3, 0, 0, 0}}, true},
     {"bar", {1e5, 1}, dimension::pressure, true},
+    {"K", {}, dimension::temperature, true},
+    {"A", {}, {{0, 0, 0, 0, 0, 1}}, true},
+    {"T", {}, {{0, 1, -2, 0, 0, -1}}, true},
     {"t", {1e3, 1}, dimension::mass, false},
     {"min", {60, 1}, dimension::time, false},
     {"h", {3600, 1}, dimension::time, false},
@@ -93,6 +96,10 @@ constexpr NamedDimension named[] = {
     {{{3, 0, 0, 0}}, "a volume", "\"2 L\"", "m^3"},
     {{{2, 1, -2, 0}}, "an energy", "\"2 mJ\"", "J"},
     {{{2, 1, -3, 0}}, "a power", "\"2 W\"", "W"},
+    {dimension::temperature, "a temperature", "\"300 K\"", "K"},
+    {{{1, 1, -3, 0, -1}}, "a conductivity", "\"0.8 W/(m K)\"", "W/(m K)"},
+    {{{2, 0, -2, 0, -1}}, "a heat per mass and kelvin", "\"800 J/(kg K)\"", "J/(kg K)"},
+    {{{0, 1, -2, 0, 0, -1}}, "a magnetic field", "\"50 mT\"", "T"},
     {{{-1, 1, -1}}, "a viscosity", "\"1 mPa s\"", "Pa s"},
 };
 

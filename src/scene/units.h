@@ -18,7 +18,7 @@ struct Dimension {
 namespace dimension {
 inline constexpr Dimension number{{0, 0, 0, 0}}, length{{1, 0, 0, 0}}, mass{{0, 1, 0, 0}}, time{{0, 0, 1, 0}}, angle{{0, 0, 0, 1}},
     velocity{{1, 0, -1, 0}}, acceleration{{1, 0, -2, 0}}, angularVelocity{{0, 0, -1, 1}}, frequency{{0, 0, -1, 0}}, massRate{{0, 1, -1, 0}},
-    density{{-3, 1, 0, 0}}, stiffness{{0, 1, -2, 0}}, force{{1, 1, -2, 0}}, pressure{{-1, 1, -2, 0}};
+    density{{-3, 1, 0, 0}}, temperature{{0, 0, 0, 0, 1}}, stiffness{{0, 1, -2, 0}}, force{{1, 1, -2, 0}}, pressure{{-1, 1, -2, 0}};
 }  // namespace dimension
 
 struct Quantity {
@@ -28,7 +28,7 @@ struct Quantity {
 
 /// \brief Parses "number unit". Throws Error(scene) with a sentence when it is not one (what is wrong, and the nearest unit).
 ///
-/// Units: m, g, s, N, Pa, J, W, Hz, bar, L with the SI prefixes; min, h, t, rad, deg, °, rev, rpm, fps, grains, frames, %.
+/// Units: m, g, s, N, Pa, J, W, Hz, K, A, T, bar, L with the SI prefixes; min, h, t, rad, deg, °, rev, rpm, fps, grains, frames, %.
 /// They combine by product (blank, * or ·), quotient (/) and integer power (^2, ², s2), with parentheses; after a / a product needs them.
 Quantity parseQuantity(std::string_view text);
 

@@ -20,6 +20,13 @@ struct Tally {
   double now(double lead) const { return total - (1 - lead) * last; }
 };
 
+/// Heat, apart from the mechanical account: it does not act back on the motion.
+struct HeatLedger {
+  double stored = 0;             ///< Σ m c T, J
+  double fromWalls = 0;          ///< so far, J
+  double inserted = 0, removed = 0;  ///< with grains, so far, J
+};
+
 /// All energies in joules. "Dissipated" and "work" count from the start of the run.
 struct Ledger {
   double time = 0;
@@ -47,6 +54,8 @@ struct Ledger {
   double workFields = 0;  ///< done by gravity that changes, flows and magnetic fields
   double inserted = 0;    ///< energy brought by grains that came in
   double removed = 0;     ///< energy taken by grains that were taken out or lost
+
+  HeatLedger heat;
 
   Vec3 momentum = Vec3::Zero();           ///< kg m/s
   Vec3 angularMomentumBulk = Vec3::Zero();  ///< X_G × P about the origin, kg m²/s

@@ -56,6 +56,7 @@ struct Wall {
   std::string name;
   std::shared_ptr<const Surface> surface;
   WallMotion motion;
+  std::optional<double> temperature;  ///< K, fixed; absent: insulated
   std::optional<WallBody> body;  ///< moves under load; then `motion` is still
   std::uint16_t material = 0;
 };
@@ -88,6 +89,7 @@ struct Model {
   Integrator integrator = Integrator::velocityVerlet;
   Vec3 gravity = Vec3::Zero();           ///< m/s²; before any change that `fields` tells of
   Fields fields;
+  bool heat = false;                     ///< conduct heat between grains that touch
   std::vector<Grain> grains;
   std::vector<Stream> streams;
   std::vector<Wall> walls;

@@ -80,6 +80,8 @@ Ledger Simulation::Impl::ledgerNow() {
   ledger.workWalls = work;
   ledger.inserted = insertedEnergy;
   ledger.removed = removedEnergy;
+  ledger.heat.inserted = insertedHeat;
+  ledger.heat.removed = removedHeat;
   ledger.initial = initialEnergy;
   ledger.workFields = gravity.work() + wrapWork;
   for (const MovingWall& wall : moving) wall.account(model.timeStep, lead, gravity.now(), ledger);
@@ -251,6 +253,7 @@ void Simulation::Impl::fill(Snapshot& snapshot) {
       snapshot.angularVelocity.push_back(now.s * row.inverseRadius);
       snapshot.orientation.push_back(orientationNow(state, g));
     }
+    if (model.heat) snapshot.temperature.push_back(state.temperature[g]);
     if (model.load) snapshot.load.push_back(load[g]);
   }
   for (const WallPlace& place : walls.places()) snapshot.walls.push_back(place.pose);

@@ -1,6 +1,7 @@
 #include "sim/pass.h"
 
 #include "sim/fields/drag.h"
+#include "sim/heat.h"
 #include "sim/laws/catalogue.h"
 
 namespace tsubu::sim {
@@ -13,6 +14,7 @@ std::vector<std::unique_ptr<ForcePass>> makePasses(const Model& model) {
   std::vector<std::unique_ptr<ForcePass>> passes;
   if (fields.drag) passes.push_back(std::make_unique<DragPass>(*fields.drag, turns, verlet));
   if (fields.damping) passes.push_back(std::make_unique<DampingPass>(*fields.damping, turns));
+  if (model.heat) passes.push_back(std::make_unique<HeatPass>(model));
   return passes;
 }
 

@@ -18,6 +18,8 @@
 
 namespace tsubu::sim {
 
+class WallPass;
+
 /// The running simulation as a pass sees it: positions and velocities of the present instant (docs/physics.md, I1, I2).
 struct World {
   const Model& model;
@@ -25,6 +27,7 @@ struct World {
   const Slabs& slabs;
   const PairLists& pairs;
   const Periods& periods;  ///< differences of positions are `periods.nearest(x_i − x_j)`
+  const WallPass& walls;
   ThreadTeam& team;
   Vec3 gravity;  ///< m/s²
   double time;   ///< s

@@ -27,6 +27,7 @@ Plan Simulation::plan(const Model& model) {
   item(grainsTurn(model), "rotation and orientation");
   item(strongestGravity(model.gravity, model.fields.gravity) > 0, model.fields.gravity.empty() ? "gravity" : "gravity that changes");
   item(model.fields.drag.has_value(), "drag");
+  item(model.heat, "heat conduction");
   item(model.fields.damping.has_value(), "global damping");
   item(!model.walls.empty(), "walls");
   const auto moves = [](const Wall& wall) { return wall.body.has_value(); };
@@ -48,7 +49,7 @@ Plan Simulation::plan(const Model& model) {
   plan.passes.push_back(verlet ? "integrate: velocity Verlet" : "integrate: symplectic Euler");
 
   plan.bytesPerGrain = sizeof(GrainRow) + sizeof(ForceRow) + (verlet ? sizeof(HalfStepRow) : 0) + (grainsTurn(model) ? sizeof(Quat) + sizeof(AngleRow) : 0) +
-                       sizeof(std::uint16_t) + sizeof(std::uint32_t) + (model.counters.empty() ? 0 : sizeof(std::uint32_t)) + sizeof(Vec3);
+                       (model.heat ? 2 * sizeof(double) : 0) + sizeof(std::uint16_t) + sizeof(std::uint32_t) + (model.counters.empty() ? 0 : sizeof(std::uint32_t)) + sizeof(Vec3);
   plan.bytesPerContact = static_cast<std::size_t>(traits.stateSize) * sizeof(double);
   plan.bytesPerListedPair = 5 * sizeof(std::int32_t);
   return plan;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "sim/heat.h"
 #include "sim/simulation_impl.h"
 
 namespace tsubu::sim {
@@ -143,6 +144,7 @@ void Simulation::Impl::removeGrains(const std::vector<char>& goes) {
   for (std::size_t g = 0; g < state.size(); ++g) {
     if (goes[g]) {
       removedEnergy += energyOf(g);
+      if (model.heat) removedHeat += heatCapacityOf(model, state, g) * state.temperature[g];
       continue;
     }
     place[g] = static_cast<std::int32_t>(stay.size());
@@ -188,6 +190,7 @@ void Simulation::Impl::arrive() {
   for (const Grain& grain : arrivals) {
     addGrain(grain);
     insertedEnergy += energyOf(state.size() - 1);
+    if (model.heat) insertedHeat += heatCapacityOf(model, state, state.size() - 1) * grain.temperature;
   }
   counts.inserted += arrivals.size();
 }

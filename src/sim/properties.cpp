@@ -27,6 +27,8 @@ std::span<const PropertyInfo, propertyCount> propertyTable() {
        "Viscous rolling: the lever of the normal force is R* times this times the rolling speed."},
       {Property::twistingFriction, Scope::pair, "twisting_friction", "μ_w", "", 0, 1e9,
        "Twisting resistance: the torque about the normal is at most μ_w R* times the normal force."},
+      {Property::conductivity, Scope::material, "conductivity", "k", "W/(m K)", 1e-12, big, "Of heat, in the grain or wall itself."},
+      {Property::heatCapacity, Scope::material, "heat_capacity", "c", "J/(kg K)", 1e-12, big, "Heat per mass and kelvin."},
   }};
   return table;
 }

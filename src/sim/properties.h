@@ -28,6 +28,8 @@ enum class Property : std::size_t {
   rollingDamping,
   rollingViscosity,
   twistingFriction,
+  conductivity,
+  heatCapacity,
   count
 };
 

@@ -96,6 +96,7 @@ void Simulation::Impl::prepareState() {
   if (model.counters.size() > 32) throw Error(ErrorKind::scene, fmt::format("There are {} counters, more than 32.", model.counters.size()));
   state.verlet = model.integrator == Integrator::velocityVerlet;
   state.turns = grainsTurn(model);
+  state.conducts = model.heat;
   for (const Grain& grain : model.grains) addGrain(grain);
   model.grains.clear();
   streams.resize(model.streams.size());
@@ -109,7 +110,9 @@ PassContext Simulation::Impl::context(PairClass pairClass, bool oneClass) {
           oneClass ? constants.of(pairClass.first) : constants.values.data(), {model.timeStep, lead}};
 }
 
-World Simulation::Impl::world() { return {model, state, slabs, pairs, periods, team, gravity.now(), time(), {model.timeStep, lead}}; }
+World Simulation::Impl::world() {
+  return {model, state, slabs, pairs, periods, walls, team, gravity.now(), time(), {model.timeStep, lead}};
+}
 
 void Simulation::Impl::step() {
   computeForces(For::step);
@@ -199,6 +202,7 @@ void Simulation::Impl::move() {
     most.fastest2 = std::max(most.fastest2, motion.fastest2);
     most.travel2 = std::max(most.travel2, motion.travel2);
   }
+  for (std::size_t g = 0; g < state.temperature.size(); ++g) state.temperature[g] += state.warming[g];
   double wallStep = 0;
   for (MovingWall& wall : moving) wallStep = std::max(wallStep, wall.move(model.timeStep, lead));
   wallTravel += wallStep;

@@ -88,6 +88,7 @@ class Simulation::Impl {
   std::vector<StreamProgress> streams;
   double insertedEnergy = 0, removedEnergy = 0;
   double wrapWork = 0;  ///< J: what gravity gets for grains that go on at the other end of a periodic domain
+  double insertedHeat = 0, removedHeat = 0;
   double initialEnergy = 0, turnover = 0;
   Ledger lastLedger;
 

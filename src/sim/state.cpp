@@ -22,6 +22,10 @@ void State::add(const Grain& grain, double density, const Vec3& freeFall) {
     orientation.push_back(grain.orientation.normalized());
     turned.push_back({});
   }
+  if (conducts) {
+    temperature.push_back(grain.temperature);
+    warming.push_back(0);
+  }
   material.push_back(grain.material);
   id.push_back(nextId++);
 }
@@ -52,6 +56,8 @@ void State::reorder(const std::vector<std::int32_t>& order) {
   reorderOne(orientation, order);
   reorderOne(turned, order);
   reorderOne(material, order);
+  reorderOne(temperature, order);
+  reorderOne(warming, order);
   reorderOne(id, order);
   reorderOne(sides, order);
   reorderOne(wrap, order);

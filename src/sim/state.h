@@ -30,6 +30,8 @@ struct State {
   std::vector<Quat> orientation;         ///< empty unless grains turn; as it was when `turned` was last zero
   std::vector<AngleRow> turned;          ///< ∫ω dt since then: orientations only show, and are brought up to date every few steps
   std::vector<std::uint16_t> material;
+  std::vector<double> temperature;       ///< K; empty unless heat is modelled
+  std::vector<double> warming;           ///< K, in the present step
   std::vector<std::uint32_t> id;
   std::vector<std::uint32_t> sides;      ///< bit c: on the positive side of counter c; empty without counters
   std::vector<Vec3> reference;           ///< positions at the last rebuild of the outer lists
@@ -37,6 +39,7 @@ struct State {
 
   bool verlet = false;
   bool turns = false;
+  bool conducts = false;
   std::uint32_t nextId = 0;
 
   std::size_t images = 0;  ///< rows beyond those of the grains

@@ -1,3 +1,5 @@
+#include "sim/time_step.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,11 +10,11 @@
 
 #include "core/error.h"
 #include "sim/fields/drag.h"
+#include "sim/heat.h"
 #include "sim/laws/catalogue.h"
 #include "sim/model.h"
 #include "sim/pair_constants.h"
 #include "sim/state.h"
-#include "sim/time_step.h"
 
 namespace tsubu::sim {
 
@@ -59,6 +61,18 @@ std::vector<DampingRates> fastestDamping(const Model& model) {
   for (const Stream& stream : model.streams)
     meet(stream.material, stream.radii.smallest(), stream.region.bounds().center(), stream.velocity);
   return rates;
+}
+
+// H3, as far as it can be known before any contact is.
+void considerHeat(const Model& model, TimeStepChoice& choice) {
+  if (!model.heat) return;
+  const auto meet = [&](std::uint16_t material, double radius) {
+    const PropertyValues& values = model.materials[material].values;
+    const double rate = warmingRate(values[Property::conductivity], values[Property::heatCapacity], massOf(values[Property::density], radius), radius);
+    if (rate * choice.limit > 1) choice = {1 / rate, fmt::format("heat conduction of {}, smallest grains", model.materials[material].name)};
+  };
+  for (const Grain& grain : model.grains) meet(grain.material, grain.radius);
+  for (const Stream& stream : model.streams) meet(stream.material, stream.radii.smallest());
 }
 
 }  // namespace
@@ -136,6 +150,7 @@ TimeStepChoice chooseTimeStep(const Model& model) {
       choice = {std::min(limit, choice.limit),
                 fmt::format("{} of {}, smallest grains", damping[a].fluid ? "drag" : "damping", model.materials[a].name)};
   }
+  considerHeat(model, choice);
   if (!std::isfinite(choice.limit))
     throw Error(ErrorKind::scene, "There is nothing to derive a time step from: no grain meets a grain or a wall.", "give time_step");
   return choice;

@@ -45,9 +45,13 @@ rolling = "elastic_plastic"
 tension = true
 [materials.glass]
 density = "2.5 g/cm^3"
+conductivity = "0.8 W/m/K"
+heat_capacity = "800 J/kg/K"
 colour = "#88ccee"
 [materials."stainless steel"]
 density = 7850
+conductivity = 16
+heat_capacity = "0.5 kJ/kg/K"
 [pairs]
 normal_stiffness = "1 kN/m"
 restitution = 0.5
@@ -65,6 +69,7 @@ material = "glass"
 velocity = [0, 0, "-1 m/s"]
 velocity_spread = "1 cm/s"
 spin = ["60 rpm", 0, 0]
+temperature = "350 K"
 [grains.weighed]
 source = "packing"
 box = { min = [0.1, 0.1, 0], max = [0.2, 0.2, 0.1] }
@@ -104,6 +109,7 @@ plane = { normal = [0, 0, 2] }
 material = "glass"
 look = "translucent"
 opacity = 0.4
+temperature = "400 K"
 [walls.side]
 plane = { point = [-1, 0, 0], normal = [1, 0, 0], size = "1 m" }
 material = "stainless steel"
@@ -154,6 +160,8 @@ drag_coefficient = 0.44
 density = "1000 kg/m^3"
 torque = false
 flow = { kind = "pipe", axis = [1, 0, 0], point = [0, 0, 0.1], radius = "5 cm", speed = "0.2 m/s" }
+[heat]
+temperature = "300 K"
 [fields.damping]
 force = "1e-5 kg/s"
 torque = "1e-12 N m s"

@@ -15,6 +15,7 @@ struct Grain {
   Quat orientation = Quat::Identity();  ///< body to world
   double radius = 0;                    ///< m
   std::uint16_t material = 0;           ///< index into the materials of the model
+  double temperature = 0;               ///< K; read where heat is modelled
 };
 
 /// A rotation drawn uniformly from all rotations (Marsaglia 1972, two points in discs): no trigonometry, the same bits everywhere.

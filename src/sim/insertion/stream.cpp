@@ -39,6 +39,7 @@ void Stream::emit(std::uint64_t seed, std::size_t index, double density, double 
     grain.angularVelocity = angularVelocity;
     grain.orientation = randomRotation(ofGrain);
     grain.material = material;
+    grain.temperature = temperature;
 
     bool placed = false;
     for (int i = 0; i < attemptsPerStep && !placed; ++i) {
