@@ -10,8 +10,9 @@
 #include "scene/pairs.h"
 #include "scene/place_grains.h"
 #include "scene/wall_pictures.h"
-#include "sim/fields/flow.h"
+#include "sim/fields/drag.h"
 #include "sim/fields/gravity.h"
+#include "sim/state.h"
 #include "sim/periodic.h"
 
 namespace tsubu::scene {
@@ -153,6 +154,33 @@ sim::Model buildModel(const Scene& scene) {
   return model;
 }
 
+// Four diameters: two grains that far apart pull at each other with 1/256 of what they do when they touch.
+double automaticCutOff(const sim::Model& model) {
+  const auto magnetic = [&](std::uint16_t material) {
+    const sim::PropertyValues& values = model.materials[material].values;
+    return values.has(sim::Property::magnetisation) || values.has(sim::Property::susceptibility);
+  };
+  double largest = 0;
+  for (const sim::Grain& grain : model.grains)
+    if (magnetic(grain.material)) largest = std::max(largest, grain.radius);
+  for (const sim::Stream& stream : model.streams)
+    if (magnetic(stream.material)) largest = std::max(largest, stream.radii.largest());
+  return 8 * largest;
+}
+
+void buildMagnets(const Scene& scene, sim::Model& model) {
+  if (!scene.magnets) return;
+  model.magnets.emplace();
+  model.magnets->cutOff = scene.magnets->cutOff.value_or(automaticCutOff(model));
+  for (const FieldSource& source : scene.magnets->sources) {
+    sim::FieldSource& made = model.magnets->sources.emplace_back();
+    made.kind = source.kind;
+    const auto named = [&](const Wall& wall) { return wall.name == source.wall; };
+    const auto wall = std::find_if(scene.walls.begin(), scene.walls.end(), named);
+    if (!source.wall.empty()) made.wall = static_cast<std::size_t>(wall - scene.walls.begin());
+  }
+}
+
 render::Style buildStyle(const Scene& scene) {
   render::Style style;
   style.picture = scene.picture;
@@ -187,6 +215,21 @@ double flowSpeed(const sim::Model& model, const Box& bounds) {
   return most;
 }
 
+// What weight and buoyancy can do against linear drag: the fastest terminal velocity, infinite without it.
+double terminalSpeed(const sim::Model& model) {
+  const double gravity = sim::strongestGravity(model.gravity, model.fields.gravity);
+  const double fluid = model.fields.drag && model.fields.drag->buoyancy ? model.fields.drag->density : 0;
+  double most = 0;
+  const auto meet = [&](std::uint16_t material, double radius) {
+    const double density = model.materials[material].values[sim::Property::density];
+    const double rate = sim::dampingRates(model.fields, sim::massOf(density, radius), radius, 0, false).linear;
+    most = std::max(most, gravity * std::abs(1 - fluid / density) / rate);
+  };
+  for (const sim::Grain& grain : model.grains) meet(grain.material, grain.radius);
+  for (const sim::Stream& stream : model.streams) meet(stream.material, stream.radii.largest());
+  return most;
+}
+
 // What a wall may come to that moves under load: free over the height of the scene, or held back by its guide.
 double bodySpeed(const sim::WallBody& body, double gravity, const Box& bounds) {
   const double pull = std::abs(body.force) + (body.weight ? body.mass * gravity : 0.0);
@@ -209,7 +252,7 @@ double expectedSpeed(const sim::Model& model, const Box& bounds, double end) {
   const double drop = model.fields.gravity.empty()
                           ? model.gravity.cwiseAbs().dot(bounds.sizes())  // |g| × height along gravity
                           : sim::strongestGravity(model.gravity, model.fields.gravity) * bounds.sizes().norm();
-  return std::max({std::sqrt(start * start + 2 * drop), wall, flowSpeed(model, bounds)});
+  return std::max({std::min(std::sqrt(start * start + 2 * drop), std::max(start, terminalSpeed(model))), wall, flowSpeed(model, bounds)});
 }
 
 std::uint64_t roundUp(double ratio) { return static_cast<std::uint64_t>(std::max(1.0, std::ceil(ratio * (1 - 1e-9)))); }
@@ -264,6 +307,7 @@ Built build(const Scene& scene) {
   buildGrains(scene, built.model);
   sim::checkPeriods(built.model);
   buildWalls(scene, built);
+  buildMagnets(scene, built.model);
   built.plan = planFrames(scene, built.model, expectedSpeed(built.model, built.bounds, scene.simulation.end), built.warnings);
   built.model.timeStep = built.plan.timeStep;
   built.style = buildStyle(scene);

@@ -52,6 +52,12 @@ void checkNeed(const Scene& scene, const sim::Reading& reading, const PositionOf
                              fmt::format("write it in [materials.{}]; {}", without.name, sentence)});
 }
 
+bool isOf(sim::Property property, std::initializer_list<sim::Property> group) {
+  return std::find(group.begin(), group.end(), property) != group.end();
+}
+bool isOfHeat(sim::Property property) { return isOf(property, {sim::Property::conductivity, sim::Property::heatCapacity}); }
+bool isOfMagnets(sim::Property property) { return isOf(property, {sim::Property::magnetisation, sim::Property::susceptibility}); }
+
 // Values that no chosen law reads are not wrong (the law may be switched for a comparison), but worth a word; two that say the same
 // thing in different ways are.
 void checkTable(const Scene& scene, const Properties& properties, sim::Scope scope, const Path& path, const PositionOf& positionOf, Findings& findings) {
@@ -74,6 +80,12 @@ void checkTable(const Scene& scene, const Properties& properties, sim::Scope sco
   }
   for (const sim::PropertyInfo& info : sim::propertyTable()) {
     if (info.scope != scope || !properties[info.property] || read[static_cast<std::size_t>(info.property)]) continue;
+    if (isOfHeat(info.property) || isOfMagnets(info.property)) {
+      const std::string_view table = isOfHeat(info.property) ? "heat" : "magnets";
+      const bool asked = isOfHeat(info.property) ? scene.heat.has_value() : scene.magnets.has_value();
+      if (!asked) findings.warnings.push_back({at(info.property), fmt::format("Without [{}] nothing reads '{}'.", table, info.key), {}});
+      continue;
+    }
     findings.warnings.push_back({at(info.property), fmt::format("None of the chosen contact laws reads '{}'.", info.key), "see [contact]"});
   }
 }

@@ -69,10 +69,11 @@ void describeFlow(Form& form, sim::Flow& flow) {
 
 void describeDrag(Form& form, sim::Drag& drag) {
   constexpr Dimension viscosity{{-1, 1, -1}};
-  form.quantity({"viscosity", "Of the fluid: Stokes' drag 6πμr, and the torque 8πμr³ against spin."}, drag.viscosity, viscosity, notNegative);
+  form.quantity({"viscosity", "Of the fluid: Stokes' drag 6πμr, and the torque 8πμr³ against spin."}, drag.viscosity, viscosity,
+                notNegative);
   form.quantity({"coefficient", "Linear drag, force per velocity, the same for every grain."}, drag.coefficient, massRate, notNegative);
-  form.quantity({"drag_coefficient", "C_d of the quadratic drag ½ρ C_d πr² |v − u|²; 0.44 for a sphere in fast flow."}, drag.dragCoefficient,
-                number, notNegative);
+  form.quantity({"drag_coefficient", "C_d of the quadratic drag ½ρ C_d πr² |v − u|²; 0.44 for a sphere in fast flow."},
+                drag.dragCoefficient, number, notNegative);
   form.quantity({"density", "Of the fluid: for the quadratic drag and for buoyancy."}, drag.density, density, notNegative);
   form.boolean({"buoyancy", "Does the fluid carry the weight of what a grain displaces?"}, drag.buoyancy);
   form.boolean({"torque", "Does a viscous fluid slow down and take along the spin of grains (where grains turn at all)?"}, drag.torque);
@@ -84,6 +85,52 @@ void describeDamping(Form& form, sim::GlobalDamping& damping) {
   form.quantity({"force", "C of the force −C v, the same for every grain."}, damping.force, massRate, notNegative);
   form.quantity({"torque", "D of the torque −D ω, the same for every grain."}, damping.torque, torqueDamping, notNegative);
   form.quantity({"rate", "Adds rate·m to C and rate·I to D: every grain slows down alike."}, damping.rate, frequency, notNegative);
+}
+
+struct DescribeSource {
+  Form& form;
+
+  void operator()(sim::UniformSource& s) const { form.vector(required("field", "Of the source, everywhere."), s.field, magneticField); }
+  void operator()(sim::GradientSource& s) const {
+    form.vector({"point", "Where the field is nothing."}, s.point, length);
+    form.vector({"axis", "Along which it grows; any length."}, s.axis, number, VectorRule::notZero);
+    form.quantity(required("gradient", "Growth of the field per distance along the axis."), s.gradient, fieldGradient);
+  }
+  void operator()(sim::DipoleSource& s) const {
+    form.vector(required("point", "Where the magnet is."), s.point, length);
+    form.vector(required("moment", "Its strength and direction."), s.moment, magneticMoment);
+  }
+  void operator()(sim::RollerSource& s) const {
+    form.vector({"axis", "Axis, any length."}, s.axis, number, VectorRule::notZero);
+    form.vector({"point", "A point of the axis."}, s.point, length);
+    form.vector({"north", "From the axis towards a north pole; any length."}, s.north, number, VectorRule::notZero);
+    std::uint64_t pairs = static_cast<std::uint64_t>(s.pairs);
+    form.integer({"pairs", "Of poles along the circumference."}, pairs, 1, 32);
+    s.pairs = static_cast<int>(pairs);
+    form.quantity(required("radius", "Where the field has the strength that is given."), s.radius, length, positive);
+    form.quantity(required("field", "Strength at that radius."), s.field, magneticField);
+  }
+
+ private:
+  static constexpr Dimension magneticField{{0, 1, -2, 0, 0, -1}}, fieldGradient{{-1, 1, -2, 0, 0, -1}}, magneticMoment{{2, 0, 0, 0, 0, 1}};
+};
+
+void describeSource(Form& form, FieldSource& source) {
+  static constexpr Choice kinds[] = {{"uniform", "The same everywhere."},
+                                     {"gradient", "Grows along an axis, between two coils that oppose each other."},
+                                     {"dipole", "A small magnet."},
+                                     {"roller", "A long round magnet with poles along its circumference, seen from outside."}};
+  byWord(form, required("kind", "What makes the field."), source.kind, kinds, DescribeSource{form});
+  form.text({"wall", "Name of a wall with which the source moves. Absent: it stands still."}, source.wall);
+}
+
+void describeMagnets(Form& form, Magnets& magnets) {
+  form.quantityOrAuto({"cut_off", "Distance of centres from which on two grains do not feel each other; the last fifth of the way is smooth. "
+                                  "\"auto\": four diameters of the largest magnet."},
+                      magnets.cutOff, length, positive);
+  form.table({"sources", "Magnets that are not grains."}, [&](Form& f) {
+    f.others({"name", "A source."}, namedEntries(magnets.sources, describeSource));
+  });
 }
 
 // A table that may be absent; what it holds then is gone.
@@ -98,6 +145,8 @@ void describeOptional(Form& form, const Field& field, std::optional<T>& value, D
 }  // namespace
 
 void describeFields(Form& form, Scene& scene) {
+  describeOptional(form, {"magnets", "Grains are magnets, through magnetisation or susceptibility of their materials."}, scene.magnets,
+                   describeMagnets);
   describeOptional(form, {"heat", "Heat flows between grains that touch. Materials then need conductivity and heat_capacity."}, scene.heat,
                    [](Form& f, Heat& heat) {
                      f.quantity({"temperature", "Of grains at the start, where their source says nothing."}, heat.temperature, temperature,

@@ -94,10 +94,11 @@ void describeWall(Form& form, Wall& wall) {
             plainEntries(wall.motions, describeMotion));
   bool moves = wall.body.has_value();
   sim::WallBody body = wall.body.value_or(sim::WallBody{});
-  form.optionalTable({"body", "The wall moves under load along an axis: a piston, a falling plate. Absent: it moves as `motion` says."}, moves,
-                     [&](Form& f) { describeBody(f, body); });
+  form.optionalTable({"body", "The wall moves under load along an axis: a piston, a falling plate. Absent: it moves as `motion` says."},
+                     moves, [&](Form& f) { describeBody(f, body); });
   wall.body = moves ? std::optional(body) : std::nullopt;
-  form.optionalQuantity({"temperature", "At which the wall is held; needs [heat]. Absent: it is insulated."}, wall.temperature, temperature, positive);
+  form.optionalQuantity({"temperature", "At which the wall is held; needs [heat]. Absent: it is insulated."}, wall.temperature, temperature,
+                        positive);
   words(form, {"look", "How it is drawn."}, wall.look, looks);
   form.optionalColour({"colour", "Of the wall, \"#rrggbb\". Absent: that of its material, or grey."}, wall.colour);
   form.optionalQuantity({"opacity", "Of a translucent wall seen face on."}, wall.opacity, number, share);

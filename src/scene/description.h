@@ -27,6 +27,23 @@ struct Heat {
   bool operator==(const Heat&) const = default;
 };
 
+/// A magnet that is not a grain.
+struct FieldSource {
+  std::string name;
+  decltype(sim::FieldSource::kind) kind;
+  std::string wall;  ///< that carries it; empty: it stands still
+
+  bool operator==(const FieldSource&) const = default;
+};
+
+/// Grains act on each other as magnets.
+struct Magnets {
+  std::optional<double> cutOff;  ///< m; absent: four diameters of the largest magnet
+  std::vector<FieldSource> sources;
+
+  bool operator==(const Magnets&) const = default;
+};
+
 /// The properties that a scene gives, by sim::Property.
 struct Properties {
   std::array<std::optional<double>, sim::propertyCount> values;
@@ -278,6 +295,7 @@ struct Scene {
   std::vector<Counter> counters;
   sim::Fields fields;
   std::optional<Heat> heat;
+  std::optional<Magnets> magnets;
   Output output;
   std::optional<Diagnostics> diagnostics;
   render::Picture picture;

@@ -100,6 +100,9 @@ constexpr NamedDimension named[] = {
     {{{1, 1, -3, 0, -1}}, "a conductivity", "\"0.8 W/(m K)\"", "W/(m K)"},
     {{{2, 0, -2, 0, -1}}, "a heat per mass and kelvin", "\"800 J/(kg K)\"", "J/(kg K)"},
     {{{0, 1, -2, 0, 0, -1}}, "a magnetic field", "\"50 mT\"", "T"},
+    {{{-1, 0, 0, 0, 0, 1}}, "a magnetisation", "\"400 kA/m\"", "A/m"},
+    {{{2, 0, 0, 0, 0, 1}}, "a magnetic moment", "\"0.5 A m^2\"", "A m^2"},
+    {{{-1, 1, -2, 0, 0, -1}}, "a field gradient", "\"0.5 T/m\"", "T/m"},
     {{{-1, 1, -1}}, "a viscosity", "\"1 mPa s\"", "Pa s"},
 };
 

@@ -44,11 +44,17 @@ void HeatPass::conduct(const World& world, int slab) {
     const GrainRow &a = state.rows[i], &b = state.rows[j];
     const double reach = a.radius + b.radius, distance2 = norm2(a.position() - b.position());
     if (!(distance2 < reach * reach)) continue;
-    const double h = conductanceOf(harmonicMean(conductivity_[state.material[i]], conductivity_[state.material[j]]),
+    const std::int32_t partner = pairs.grainOf(pairs.j[k]);
+    const auto p = static_cast<std::size_t>(partner);
+    const double h = conductanceOf(harmonicMean(conductivity_[state.material[i]], conductivity_[state.material[p]]),
                                    1 / (a.inverseRadius + b.inverseRadius), reach - std::sqrt(distance2));
-    const double q = h * (state.temperature[j] - state.temperature[i]);
-    flow_[i] += q, flow_[j] -= q;
-    conductance_[i] += h, conductance_[j] += h;
+    const double q = h * (state.temperature[p] - state.temperature[i]);
+    flow_[i] += q, conductance_[i] += h;
+    if (p == j) {
+      flow_[p] -= q, conductance_[p] += h;
+    } else {
+      across_[static_cast<std::size_t>(slab)].push_back({partner, -q, h});
+    }
   }
 }
 
@@ -92,11 +98,18 @@ void HeatPass::addForces(const World& world) {
   flow_.assign(n, 0);
   conductance_.assign(n, 0);
   fromWalls_.assign(static_cast<std::size_t>(slabs), 0);
+  across_.assign(static_cast<std::size_t>(slabs), {});
   for (int parity = 0; parity < 2; ++parity) {
     world.team.run((slabs + 1 - parity) / 2, [&](int task, int) {
       conduct(world, 2 * task + parity);
       conductWalls(world, 2 * task + parity);
     });
+  }
+  for (const std::vector<Across>& slab : across_) {
+    for (const Across& across : slab) {
+      flow_[static_cast<std::size_t>(across.owner)] += across.flow;
+      conductance_[static_cast<std::size_t>(across.owner)] += across.conductance;
+    }
   }
   double total = 0;
   for (const double share : fromWalls_) total += share;

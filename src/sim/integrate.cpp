@@ -91,8 +91,9 @@ Motion integrate(State& state, std::int32_t first, std::int32_t last, const Vec3
   return motion;
 }
 
-void startVerlet(State& state, const Vec3& gravity, double dt) {
+void startVerlet(State& state, std::uint32_t firstId, const Vec3& gravity, double dt) {
   for (std::size_t k = 0; k < state.half.size(); ++k) {
+    if (state.id[k] < firstId) continue;
     const GrainRow& row = state.rows[k];
     const Acceleration a = accelerationOf(row, state.forces[k], v3(gravity));
     const V3 u = row.velocity() - (0.5 * dt) * a.linear, w = row.surfaceSpin() - (0.5 * dt) * a.surface;

@@ -9,7 +9,7 @@
 // of the scheme (with u alone, as is common, it would be first). Both schemes conserve momentum; along the normal, without
 // damping, they are symplectic (across it, see T6).
 // Rotation is the same for L = I ω; a sphere's inertia is a number, so that r ω is advanced: d(r ω)/dt = −(5/2) Q/m.
-//   I3  orientation        q ← exp(½ ∫ω dt) q, with ω at half steps summed over `turnEvery` steps. No force reads it: it only shows.
+//   I3  orientation        q ← exp(½ ∫ω dt) q, with ω at half steps summed over `turnEvery` steps. Only magnets read it.
 
 #include "sim/neighbours/slabs.h"
 #include "sim/state.h"
@@ -28,8 +28,9 @@ inline constexpr std::uint64_t turnEvery = 32;
 /// Moves grains [first, last) by one step and clears their forces. `turn`: also bring their orientations up to date.
 Motion integrate(State& state, std::int32_t first, std::int32_t last, const Vec3& gravity, double dt, bool turn);
 
-/// Sets the half-step velocities from the velocities of the rows and the present forces: what velocity Verlet starts with.
-void startVerlet(State& state, const Vec3& gravity, double dt);
+/// Sets the half-step velocities of grains from this id on from the velocities of the rows and the present forces: what velocity Verlet
+/// starts with.
+void startVerlet(State& state, std::uint32_t firstId, const Vec3& gravity, double dt);
 
 /// The velocities of the present instant, forces known: v and r ω.
 struct Velocities {

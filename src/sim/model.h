@@ -11,6 +11,7 @@
 
 #include "core/vec.h"
 #include "sim/fields/fields.h"
+#include "sim/fields/magnets.h"
 #include "sim/insertion/stream.h"
 #include "sim/properties.h"
 #include "sim/walls/body.h"
@@ -89,6 +90,7 @@ struct Model {
   Integrator integrator = Integrator::velocityVerlet;
   Vec3 gravity = Vec3::Zero();           ///< m/s²; before any change that `fields` tells of
   Fields fields;
+  std::optional<Magnets> magnets;        ///< grains act on each other as magnets
   bool heat = false;                     ///< conduct heat between grains that touch
   std::vector<Grain> grains;
   std::vector<Stream> streams;

@@ -30,6 +30,7 @@ struct World {
   const WallPass& walls;
   ThreadTeam& team;
   Vec3 gravity;  ///< m/s²
+  double skin;   ///< m: two grains approach each other by less between one regroup() and the next
   double time;   ///< s
   StepOf step;
 };
@@ -48,11 +49,13 @@ class ForcePass {
   virtual void addForces(const World& world) = 0;
   /// Adds what it stores, what it has dissipated and what work it has done, as of the present instant.
   virtual void account(const World&, Ledger&) const {}
+  /// J: what goes when these grains (marked by their places) go, or has come with them.
+  virtual double storedIn(const World&, const std::vector<char>& /*grains*/) const { return 0; }
   /// Fingerprint of its own state, whatever the order of grains in memory.
   virtual std::uint64_t hash(const State&) const { return 0; }
 };
 
-/// Do grains turn? Without friction nothing asks for it.
+/// Do grains turn? Without friction only magnets ask for it.
 bool grainsTurn(const Model& model);
 
 /// The passes that this model asks for, in the order of the step.

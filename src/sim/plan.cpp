@@ -27,6 +27,7 @@ Plan Simulation::plan(const Model& model) {
   item(grainsTurn(model), "rotation and orientation");
   item(strongestGravity(model.gravity, model.fields.gravity) > 0, model.fields.gravity.empty() ? "gravity" : "gravity that changes");
   item(model.fields.drag.has_value(), "drag");
+  item(model.magnets.has_value(), "magnets");
   item(model.heat, "heat conduction");
   item(model.fields.damping.has_value(), "global damping");
   item(!model.walls.empty(), "walls");

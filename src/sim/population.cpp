@@ -137,7 +137,7 @@ void Simulation::Impl::leave() {
 void Simulation::Impl::removeGrains(const std::vector<char>& goes) {
   if (model.ledger) {
     for (const SlabPairs& slab : pairs.slabs()) PairLists::refreshImages(state, slab);
-    removedEnergy += storedInContactsOf(goes);
+    removedEnergy += storedInContactsOf(goes) + storedInPasses(goes);
   }
   std::vector<std::int32_t> stay;
   std::vector<std::int32_t> place(state.size(), -1);
@@ -153,6 +153,22 @@ void Simulation::Impl::removeGrains(const std::vector<char>& goes) {
   state.reorder(stay);
   placeAfterRemoval = std::move(place);
   rebuildNeeded = true;
+}
+
+double Simulation::Impl::storedInPasses(const std::vector<char>& grains) {
+  double energy = 0;
+  for (const auto& pass : passes) energy += pass->storedIn(world(), grains);
+  return energy;
+}
+
+// What passes store in grains that have just come is known when the lists are.
+void Simulation::Impl::bookArrivals() {
+  if (firstArrival == state.nextId) return;
+  if (steps > 0 && model.ledger && !passes.empty()) {
+    std::vector<char> came(state.size());
+    for (std::size_t g = 0; g < state.size(); ++g) came[g] = state.id[g] >= firstArrival;
+    insertedEnergy += storedInPasses(came);
+  }
 }
 
 /// `near` is room to work in.

@@ -29,6 +29,10 @@ std::span<const PropertyInfo, propertyCount> propertyTable() {
        "Twisting resistance: the torque about the normal is at most μ_w R* times the normal force."},
       {Property::conductivity, Scope::material, "conductivity", "k", "W/(m K)", 1e-12, big, "Of heat, in the grain or wall itself."},
       {Property::heatCapacity, Scope::material, "heat_capacity", "c", "J/(kg K)", 1e-12, big, "Heat per mass and kelvin."},
+      {Property::magnetisation, Scope::material, "magnetisation", "M", "A/m", -big, big,
+       "Of a lasting magnet: moment per volume, along the z axis of the grain, with which it turns."},
+      {Property::susceptibility, Scope::material, "susceptibility", "χ", "", -1, big,
+       "Of a grain that is magnetised by the sources of [magnets]; 1000 and more for iron."},
   }};
   return table;
 }

@@ -30,6 +30,8 @@ enum class Property : std::size_t {
   twistingFriction,
   conductivity,
   heatCapacity,
+  magnetisation,
+  susceptibility,
   count
 };
 

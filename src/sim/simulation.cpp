@@ -44,7 +44,7 @@ Simulation::Impl::Impl(Model given, int threads)
   if (model.ledger) {
     computeForces();
     const Ledger start = ledgerNow();
-    initialEnergy = start.mechanical() + start.dissipated() - start.work();
+    initialEnergy = start.mechanical() + start.dissipated() - start.work() - start.inserted + start.removed;
     turnover = 0;
   }
 }
@@ -111,7 +111,7 @@ PassContext Simulation::Impl::context(PairClass pairClass, bool oneClass) {
 }
 
 World Simulation::Impl::world() {
-  return {model, state, slabs, pairs, periods, walls, team, gravity.now(), time(), {model.timeStep, lead}};
+  return {model, state, slabs, pairs, periods, walls, team, gravity.now(), outerSkin, time(), {model.timeStep, lead}};
 }
 
 void Simulation::Impl::step() {
@@ -126,6 +126,7 @@ void Simulation::Impl::computeForces(For whom) {
   placeMovingWalls();
   changePopulation();
   refreshLists();
+  bookArrivals();
   if (gravity.changes() && model.ledger) gravity.settle(momentOfMass());
 
   walls.settle();
@@ -159,7 +160,8 @@ void Simulation::Impl::computeForces(For whom) {
   for (const auto& pass : passes) pass->addForces(world());
   loadMovingWalls();
   wallTravel += wallStep;
-  if (steps == 0 && state.verlet) startVerlet(state, gravity.now(), model.timeStep);
+  if (state.verlet && firstArrival < state.nextId) startVerlet(state, firstArrival, gravity.now(), model.timeStep);
+  firstArrival = state.nextId;
   forcesKnown = true;
   if (accountsKnown) watchOverlap();
 }

@@ -88,6 +88,7 @@ class Simulation::Impl {
   std::vector<StreamProgress> streams;
   double insertedEnergy = 0, removedEnergy = 0;
   double wrapWork = 0;  ///< J: what gravity gets for grains that go on at the other end of a periodic domain
+  std::uint32_t firstArrival = 0;  ///< id: grains from here on have come in the present step
   double insertedHeat = 0, removedHeat = 0;
   double initialEnergy = 0, turnover = 0;
   Ledger lastLedger;
@@ -120,6 +121,7 @@ class Simulation::Impl {
   std::string describe(std::size_t grain) const;
 
   void arrive();
+  void bookArrivals();
   void leave();
   void lose(std::size_t grain, const std::string& why, std::vector<char>& goes);
   void removeGrains(const std::vector<char>& goes);
@@ -140,6 +142,7 @@ class Simulation::Impl {
   void visitContacts(Visit&& visit) const;
   double energyOf(std::size_t grain) const;
   /// J: in the springs of all contacts that one of the marked grains takes part in.
+  double storedInPasses(const std::vector<char>& grains);
   double storedInContactsOf(const std::vector<char>& grains) const;
   void addLoads(std::vector<double>& load) const;
   std::uint64_t contactHash() const;

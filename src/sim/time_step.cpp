@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "sim/fields/drag.h"
+#include "sim/fields/magnet_pass.h"
 #include "sim/heat.h"
 #include "sim/laws/catalogue.h"
 #include "sim/model.h"
@@ -73,6 +74,12 @@ void considerHeat(const Model& model, TimeStepChoice& choice) {
   };
   for (const Grain& grain : model.grains) meet(grain.material, grain.radius);
   for (const Stream& stream : model.streams) meet(stream.material, stream.radii.smallest());
+}
+
+// Needles swing; S2 without a dashpot.
+void considerMagnets(const Model& model, TimeStepChoice& choice) {
+  const double square = fastestMagnet(model);
+  if (square > 0 && 2 / std::sqrt(square) < choice.limit) choice = {2 / std::sqrt(square), "magnets that swing"};
 }
 
 }  // namespace
@@ -150,6 +157,7 @@ TimeStepChoice chooseTimeStep(const Model& model) {
       choice = {std::min(limit, choice.limit),
                 fmt::format("{} of {}, smallest grains", damping[a].fluid ? "drag" : "damping", model.materials[a].name)};
   }
+  considerMagnets(model, choice);
   considerHeat(model, choice);
   if (!std::isfinite(choice.limit))
     throw Error(ErrorKind::scene, "There is nothing to derive a time step from: no grain meets a grain or a wall.", "give time_step");

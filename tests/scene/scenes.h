@@ -47,11 +47,13 @@ tension = true
 density = "2.5 g/cm^3"
 conductivity = "0.8 W/m/K"
 heat_capacity = "800 J/kg/K"
+magnetisation = "1 kA/m"
 colour = "#88ccee"
 [materials."stainless steel"]
 density = 7850
 conductivity = 16
 heat_capacity = "0.5 kJ/kg/K"
+susceptibility = 1000
 [pairs]
 normal_stiffness = "1 kN/m"
 restitution = 0.5
@@ -162,6 +164,28 @@ torque = false
 flow = { kind = "pipe", axis = [1, 0, 0], point = [0, 0, 0.1], radius = "5 cm", speed = "0.2 m/s" }
 [heat]
 temperature = "300 K"
+[magnets]
+cut_off = "6 mm"
+[magnets.sources.coil]
+kind = "uniform"
+field = [0, "10 mT", 0]
+[magnets.sources.coils]
+kind = "gradient"
+axis = [0, 0, 2]
+gradient = "0.3 T/m"
+[magnets.sources.small]
+kind = "dipole"
+point = [0, 0, -0.5]
+moment = [0, 0, "2 A m^2"]
+[magnets.sources.roller]
+kind = "roller"
+axis = [0, 1, 0]
+point = [0, 0, -0.6]
+north = [0, 0, 1]
+pairs = 3
+radius = "1 cm"
+field = "80 mT"
+wall = "side"
 [fields.damping]
 force = "1e-5 kg/s"
 torque = "1e-12 N m s"

@@ -128,6 +128,22 @@ TEST(Heat, AnyNumberOfThreadsTheSameBits) {
   }
 }
 
+// Across a periodic boundary grains touch as they do inside.
+TEST(Heat, FlowsAcrossAPeriodicBoundary) {
+  const auto after = [](double shift) {
+    Warm s;
+    s.model.domain = Box(Vec3::Zero(), Vec3::Constant(0.02));
+    s.model.periodic = {true, true, false};
+    for (int g = 0; g < 3; ++g) s.grain(1e-5 * (g + 1), 1e-3, {0.005 + shift + 1.9e-3 * g, 0.01, 0.01}, 300 + 50 * g, 1, 700);
+    Simulation sim = s.start(1);
+    sim.advance(20);
+    return look(sim).temperature;
+  };
+  const std::vector<double> inside = after(0), across = after(0.0125);
+  EXPECT_GT(inside[0], 301);
+  for (std::size_t g = 0; g < 3; ++g) EXPECT_NEAR(inside[g], across[g], 1e-9);
+}
+
 TEST(Heat, TooFastForTheStepIsNamed) {
   Warm s;
   s.grain(1e-5, 1e-3, {0, 0, 0}, 300, 1, 700);
