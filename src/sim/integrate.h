@@ -9,7 +9,7 @@
 // of the scheme (with u alone, as is common, it would be first). Both schemes conserve momentum; along the normal, without
 // damping, they are symplectic (across it, see T6).
 // Rotation is the same for L = I ω; a sphere's inertia is a number, so that r ω is advanced: d(r ω)/dt = −(5/2) Q/m.
-//   I3  orientation        q ← exp(½ ∫ω dt) q, with ω at half steps summed over `turnEvery` steps. Only magnets read it.
+//   I3  orientation        q ← exp(½ ∫ω dt) q, with ω at half steps summed over `turnEvery` steps; where magnets read it, over one.
 
 #include "sim/neighbours/slabs.h"
 #include "sim/state.h"

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "sim/fields/magnet_pass.h"
 #include "sim/laws/catalogue.h"
 #include "sim/pair_constants.h"
 #include "sim/simulation_impl.h"
@@ -97,6 +98,7 @@ void Simulation::Impl::prepareState() {
   state.verlet = model.integrator == Integrator::velocityVerlet;
   state.turns = grainsTurn(model);
   state.conducts = model.heat;
+  if (hasPermanentMagnets(model)) turnInterval = 1;
   for (const Grain& grain : model.grains) addGrain(grain);
   model.grains.clear();
   streams.resize(model.streams.size());
@@ -195,7 +197,7 @@ void Simulation::Impl::loadMovingWalls() {
 void Simulation::Impl::move() {
   std::vector<Motion>& found = motions;
   found.assign(static_cast<std::size_t>(slabs.count()), Motion{});
-  const bool turn = (steps + 1) % turnEvery == 0;
+  const bool turn = (steps + 1) % turnInterval == 0;
   team.run(slabs.count(), [&](int slab, int) {
     found[static_cast<std::size_t>(slab)] = integrate(state, slabs.begin(slab), slabs.end(slab), gravity.now(), model.timeStep, turn);
   });

@@ -77,6 +77,7 @@ class Simulation::Impl {
   std::uint64_t steps = 0;
   std::uint64_t grainSteps = 0;
   std::uint64_t stepsBetweenArrivals = 1;
+  std::uint64_t turnInterval = turnEvery;   ///< steps between updates of the orientations; magnets need them all
   bool forcesKnown = false;
   bool accountsKnown = false;               ///< the last pass kept accounts
   std::vector<Motion> motions;              ///< one per slab

@@ -137,11 +137,15 @@ void MagnetPass::act(const World& world, int slab, Share& share) {
     if (!isMagnetic(world.state, i)) continue;
     const GrainRow& row = world.state.rows[i];
     const Magnet& magnet = now_[i];
+    const Point self = points_[i];
+    const bool periodic = world.periods.any();
     V3 force{0, 0, 0}, field{0, 0, 0};
     double energy = 0;
     for (auto k = static_cast<std::size_t>(near.start[local]); k < static_cast<std::size_t>(near.start[local + 1]); ++k) {
-      const auto j = static_cast<std::size_t>(near.list[k]);
-      const DipolePair pair = dipolePair(between(world, i, j), magnet.moment, now_[j].moment, cut_);
+      const Point& other = points_[static_cast<std::size_t>(near.list[k])];
+      V3 d = self.position - other.position;
+      if (periodic) d = v3(world.periods.nearest(vec3(d)));
+      const DipolePair pair = dipolePair(d, self.moment, other.moment, cut_);
       force = force + pair.force;
       field = field + pair.field;
       energy += 0.5 * pair.energy;
@@ -159,10 +163,15 @@ void MagnetPass::act(const World& world, int slab, Share& share) {
 
 void MagnetPass::addForces(const World& world) {
   now_.resize(world.state.size());
+  points_.resize(world.state.size());
   shares_.assign(static_cast<std::size_t>(world.slabs.count()), Share{});
   world.team.run(world.slabs.count(), [&](int slab, int) {
-    for (std::int32_t g = world.slabs.begin(slab); g < world.slabs.end(slab); ++g)
-      if (isMagnetic(world.state, static_cast<std::size_t>(g))) now_[static_cast<std::size_t>(g)] = magnetAt(world, static_cast<std::size_t>(g));
+    for (std::int32_t g = world.slabs.begin(slab); g < world.slabs.end(slab); ++g) {
+      const auto i = static_cast<std::size_t>(g);
+      if (!isMagnetic(world.state, i)) continue;
+      now_[i] = magnetAt(world, i);
+      points_[i] = {world.state.rows[i].position(), now_[i].moment};
+    }
   });
   world.team.run(world.slabs.count(), [&](int slab, int) { act(world, slab, shares_[static_cast<std::size_t>(slab)]); });
   energy_ = 0;

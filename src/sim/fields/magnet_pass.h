@@ -35,6 +35,9 @@ class MagnetPass : public ForcePass {
     double polarisability;  // α, A m²/T
     FieldAt source;         // B₀ where it is
   };
+  struct alignas(64) Point {  // what a neighbour needs of it, in one line of cache
+    V3 position, moment;
+  };
   struct Neighbours {  // of the grains of a slab
     std::vector<std::int32_t> start, list;
   };
@@ -51,7 +54,8 @@ class MagnetPass : public ForcePass {
   std::vector<char> magnetic_;
   bool fixed_;  // do grains have moments of their own?
   CutOff cut_;
-  std::vector<Magnet> now_;  // by grain
+  std::vector<Magnet> now_;    // by grain
+  std::vector<Point> points_;  // by grain
   std::vector<Neighbours> near_;
   std::vector<Share> shares_;
   double energy_ = 0;

@@ -277,33 +277,25 @@ TEST(Magnets, LedgerClosesAtTheOrderOfTheScheme) {
   }
 }
 
-// Magnets that come in and go take their energy along.
+// Magnets that come in and go take their energy along: potentials of a third of the turnover come in and go out here.
 TEST(Magnets, LedgerClosesWithInletsAndSinks) {
-  double last = 0;
-  for (const double dt : {8e-6, 4e-6}) {
-    Magnetic s = brush(Integrator::velocityVerlet);
-    Stream stream;
-    stream.name = "inlet";
-    stream.region.shape = BoxRegion{{-0.01, -0.01, 0.012}, {0.01, 0.01, 0.016}};
-    stream.grainsPerSecond = 800;
-    stream.radii.kind = UniformRadius{0.9e-3, 1.3e-3};
-    stream.velocity = {0, 0, -0.5};
-    s.model.streams.push_back(stream);
-    s.model.sinks.push_back({"out", {BoxRegion{{0.002, -1, -1}, {1, 1, 1e-3}}}});
-    Simulation sim = s.start(dt);
-    for (int n = 0; n < 20; ++n) {
-      sim.advance(static_cast<std::uint64_t>(std::lround(2e-3 / dt)));
-      sim.ledger();
-    }
-    EXPECT_GT(sim.counts().removed, 3u);
-    EXPECT_GT(sim.counts().inserted, 10u);
-    const double fraction = sim.ledger().residualFraction();
-    EXPECT_LT(fraction, 0.02);
-    if (last > 0) {
-      EXPECT_LT(fraction, 0.6 * last);
-    }
-    last = fraction;
+  Magnetic s = brush(Integrator::velocityVerlet);
+  Stream stream;
+  stream.name = "inlet";
+  stream.region.shape = BoxRegion{{-0.01, -0.01, 0.012}, {0.01, 0.01, 0.016}};
+  stream.grainsPerSecond = 800;
+  stream.radii.kind = UniformRadius{0.9e-3, 1.3e-3};
+  stream.velocity = {0, 0, -0.5};
+  s.model.streams.push_back(stream);
+  s.model.sinks.push_back({"out", {BoxRegion{{0.002, -1, -1}, {1, 1, 1e-3}}}});
+  Simulation sim = s.start(4e-6);
+  for (int n = 0; n < 20; ++n) {
+    sim.advance(500);
+    sim.ledger();
   }
+  EXPECT_GT(sim.counts().removed, 3u);
+  EXPECT_GT(sim.counts().inserted, 10u);
+  EXPECT_LT(sim.ledger().residualFraction(), 2e-3);
 }
 
 TEST(Magnets, AnyNumberOfThreadsTheSameBits) {
