@@ -63,6 +63,11 @@ TRACK_ANGLE = math.radians(70)
 TRACK_FACETS = 42
 GROOVE = 0.018  # half the width of a groove, and its depth: both sides at 45°
 
+# --- roller.stl: solid, axis along y through the origin
+ROLLER_FACETS = 72
+ROLLER_RADIUS = 0.008
+ROLLER_LENGTH = 0.010
+
 
 def circle(radius, count):
     return [(radius * math.cos(2 * math.pi * k / count), radius * math.sin(2 * math.pi * k / count)) for k in range(count)]
@@ -124,6 +129,11 @@ def drum_lifters():
         inner, outer = apothem - LIFTER_HEIGHT, apothem
         blades.append([(inner * c, -h, inner * s), (outer * c, -h, outer * s), (outer * c, h, outer * s), (inner * c, h, inner * s)])
     return blades
+
+
+def roller():
+    front, back = ([(x, y, z) for x, z in circle(ROLLER_RADIUS, ROLLER_FACETS)] for y in (-ROLLER_LENGTH / 2, ROLLER_LENGTH / 2))
+    return band(back, front) + [back[::-1], front]
 
 
 def chute_profile():
@@ -351,6 +361,7 @@ def files():
         "drum.ply": ply(drum()),
         "drum_front.ply": ply(drum_front()),
         "drum_lifters.stl": stl(drum_lifters()),
+        "roller.stl": stl(roller()),
         "chute.stl": stl(chute()),
         "chute_sides.stl": stl(chute_sides()),
         "gate.obj": obj(gate()),
