@@ -176,7 +176,7 @@ Vec3 Simulation::Impl::momentOfMass() const { return massMoment(state) + massMom
 
 void Simulation::Impl::placeMovingWalls() {
   for (const MovingWall& wall : moving)
-    walls.place(wall.wall(), {{Quat::Identity(), wall.way() * wall.axis()}, {wall.speedSeen() * wall.axis(), Vec3::Zero(), Vec3::Zero()}});
+    walls.place(wall.wall(), {Quat::Identity(), wall.way() * wall.axis()}, {wall.speedSeen() * wall.axis(), Vec3::Zero(), Vec3::Zero()});
 }
 
 // A wall lighter than its contacts can bear at this step is named before it takes off (S2 with all of them in one direction).

@@ -145,7 +145,14 @@ struct WallPass::Batch {
 };
 
 void WallPass::settle() {
-  for (WallPlace& place : places_) place.rotation = place.pose.rotation.toRotationMatrix();
+  for (std::size_t w = 0; w < places_.size(); ++w) {
+    WallPlace& place = places_[w];
+    place.rotation = place.pose.rotation.toRotationMatrix();
+    place.plane = (*walls_)[w].surface->asPlane();
+    if (!place.plane) continue;
+    place.plane->normal = place.rotation * place.plane->normal;
+    place.plane->offset += place.plane->normal.dot(place.pose.translation);
+  }
 }
 
 void WallPass::evaluateSlab(int slabNumber, const PassContext& context, WallKernel kernel, bool account, Stage& stage,
@@ -156,16 +163,20 @@ void WallPass::evaluateSlab(int slabNumber, const PassContext& context, WallKern
   slab.tunnelled.clear();
   if (slab.groups.empty()) return;
   Batch batch(kernel, account, stage, accounts, acting);
-  for (WallGroup& group : slab.groups) evaluateGroup(slab, group, context, batch);
+  for (WallGroup& group : slab.groups) {
+    if (places_[group.wall].plane)
+      evaluatePlane(slab, group, context, batch);
+    else
+      evaluateGroup(slab, group, context, batch);
+  }
   flush(slab, context, batch);
   slab.work += slab.lastWork;
 }
 
 void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, const PassContext& context, Batch& batch) {
   const GrainRow& row = context.rows[group.grain];
-  const Wall& wall = (*walls_)[group.wall];
   const WallPlace& place = places_[group.wall];
-  const Surface& surface = *wall.surface;
+  const Surface& surface = *(*walls_)[group.wall].surface;
   const Vec3 centre = centreOf(row), local = place.toLocal(centre);
   const double travel2 = (local - group.centre).squaredNorm();
   if (travel2 < group.room * group.room) return;
@@ -191,51 +202,94 @@ void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, const PassContex
   }
   if (law_.stateSize > 0 && anyTouched) handOver(surface, slab, group, contacts, rotation);
 
-  // Candidates and contacts both ascend by feature. A contact that has just ended goes through the kernel once more, out of reach, so
-  // that its memory is cleared and what its spring held is booked.
+  // Candidates and contacts both ascend by feature.
   int next = 0;
   for (std::int32_t c = group.first; c < group.last; ++c) {
-    WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(c)];
+    const WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(c)];
     while (next < contacts.size() && contacts[next].feature < candidate.feature) ++next;
     const bool touches = next < contacts.size() && contacts[next].feature == candidate.feature;
     if (!touches && !candidate.touching) continue;
-    if (batch.count == chunkSize) flush(slab, context, batch);
-    const int q = batch.count++;
-    Vec3 d, point;
     if (touches) {
-      const Vec3 normal = rotation * contacts[next].normal;
-      candidate.normal = normal;
-      d = std::max(contacts[next].distance, leastDistance * row.radius) * normal;
-      point = rotation * contacts[next].point + place.pose.translation;
+      const WallContact& contact = contacts[next];
+      put(slab, group, c, {rotation * contact.normal, contact.distance, rotation * contact.point + place.pose.translation, contact.weight}, context,
+          batch);
     } else {
-      d = 2 * row.radius * candidate.normal;
-      point = centre;
+      putEnded(slab, group, c, context, batch);
     }
-    const Vec3 velocity = place.twist.at(point);
-    batch.grain[static_cast<std::size_t>(q)] = group.grain;
-    batch.load[static_cast<std::size_t>(q)] = loadOf_[group.wall];
-    batch.wall[static_cast<std::size_t>(q)] = group.wall;
-    batch.candidate[static_cast<std::size_t>(q)] = c;
-    batch.wallVelocity[static_cast<std::size_t>(q)] = velocity;
-    batch.wallSpin[static_cast<std::size_t>(q)] = place.twist.angularVelocity;
-    Stage& s = batch.stage;
-    s.dx[q] = d.x(), s.dy[q] = d.y(), s.dz[q] = d.z();
-    s.radiusSum[q] = row.radius;
-    s.dvx[q] = row.vx - velocity.x(), s.dvy[q] = row.vy - velocity.y(), s.dvz[q] = row.vz - velocity.z();
-    s.inverseMassSum[q] = row.inverseMass + inverseMassOf(wall);
-    s.sx[q] = row.sx, s.sy[q] = row.sy, s.sz[q] = row.sz;
-    const V3 spin = row.inverseRadius * row.surfaceSpin(), wallSpin = v3(place.twist.angularVelocity);
-    const V3 mean = 0.5 * (spin + wallSpin), difference = spin - wallSpin;
-    s.ox[q] = mean.x, s.oy[q] = mean.y, s.oz[q] = mean.z;
-    s.rx[q] = difference.x, s.ry[q] = difference.y, s.rz[q] = difference.z;
-    s.inverseRadiusSum[q] = row.inverseRadius;
-    s.inverseInertiaSum[q] = row.inverseMass * row.inverseRadius * row.inverseRadius;
-    s.smallerRadius[q] = row.radius;
-    s.weight[q] = touches ? contacts[next].weight : 1;
-    s.pairClass[q] = static_cast<std::int32_t>(context.material[group.grain] * context.materials + wall.material);
-    for (int component = 0; component < law_.stateSize; ++component) s.memory[component][q] = candidate.memory[component];
-    candidate.touching = touches;
   }
+}
+
+// An unbounded plane has one feature and needs no frame of its own.
+void WallPass::evaluatePlane(SlabWalls& slab, WallGroup& group, const PassContext& context, Batch& batch) {
+  const GrainRow& row = context.rows[group.grain];
+  const WallPlace& place = places_[group.wall];
+  const Vec3 centre = centreOf(row);
+  const double height = place.plane->signedDistance(centre);
+  const bool touches = height < row.radius, touched = slab.candidates[static_cast<std::size_t>(group.first)].touching;
+  if (!touches && !touched) return;
+  if (height < 0) {
+    const std::uint32_t feature = 0;
+    const Vec3 local = place.toLocal(centre);
+    if ((*walls_)[group.wall].surface->crossedFace(group.centre, local, {&feature, 1}) != Surface::none) slab.tunnelled.push_back(group.grain);
+    group.centre = local;
+  }
+  if (touches)
+    put(slab, group, group.first, {place.plane->normal, height, centre - height * place.plane->normal, 1}, context, batch);
+  else
+    putEnded(slab, group, group.first, context, batch);
+}
+
+// Puts a contact on the bench. `contact`: in the world.
+void WallPass::put(SlabWalls& slab, const WallGroup& group, std::int32_t candidateIndex, const Touch& contact, const PassContext& context,
+                   Batch& batch) {
+  WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(candidateIndex)];
+  candidate.normal = contact.normal;
+  candidate.touching = true;
+  const GrainRow& row = context.rows[group.grain];
+  putColumns(slab, group, candidateIndex, std::max(contact.distance, leastDistance * row.radius) * contact.normal, contact.point, contact.weight,
+             context, batch);
+}
+
+// A contact that has just ended goes through the kernel once more, out of reach, so that its memory is cleared and what its spring held
+// is booked.
+void WallPass::putEnded(SlabWalls& slab, const WallGroup& group, std::int32_t candidateIndex, const PassContext& context, Batch& batch) {
+  WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(candidateIndex)];
+  candidate.touching = false;
+  const GrainRow& row = context.rows[group.grain];
+  putColumns(slab, group, candidateIndex, 2 * row.radius * candidate.normal, centreOf(row), 1, context, batch);
+}
+
+void WallPass::putColumns(SlabWalls& slab, const WallGroup& group, std::int32_t candidateIndex, const Vec3& d, const Vec3& point, double weight,
+                          const PassContext& context, Batch& batch) {
+  if (batch.count == chunkSize) flush(slab, context, batch);
+  const auto k = static_cast<std::size_t>(batch.count++);
+  const GrainRow& row = context.rows[group.grain];
+  const Wall& wall = (*walls_)[group.wall];
+  const Twist& twist = places_[group.wall].twist;
+  const Vec3 velocity = twist.at(point);
+  batch.grain[k] = group.grain;
+  batch.load[k] = loadOf_[group.wall];
+  batch.wall[k] = group.wall;
+  batch.candidate[k] = candidateIndex;
+  batch.wallVelocity[k] = velocity;
+  batch.wallSpin[k] = twist.angularVelocity;
+  Stage& s = batch.stage;
+  s.dx[k] = d.x(), s.dy[k] = d.y(), s.dz[k] = d.z();
+  s.radiusSum[k] = row.radius;
+  s.dvx[k] = row.vx - velocity.x(), s.dvy[k] = row.vy - velocity.y(), s.dvz[k] = row.vz - velocity.z();
+  s.inverseMassSum[k] = row.inverseMass + inverseMassOf(wall);
+  s.sx[k] = row.sx, s.sy[k] = row.sy, s.sz[k] = row.sz;
+  const V3 spin = row.inverseRadius * row.surfaceSpin(), wallSpin = v3(twist.angularVelocity);
+  const V3 mean = 0.5 * (spin + wallSpin), difference = spin - wallSpin;
+  s.ox[k] = mean.x, s.oy[k] = mean.y, s.oz[k] = mean.z;
+  s.rx[k] = difference.x, s.ry[k] = difference.y, s.rz[k] = difference.z;
+  s.inverseRadiusSum[k] = row.inverseRadius;
+  s.inverseInertiaSum[k] = row.inverseMass * row.inverseRadius * row.inverseRadius;
+  s.smallerRadius[k] = row.radius;
+  s.weight[k] = weight;
+  s.pairClass[k] = static_cast<std::int32_t>(context.material[group.grain] * context.materials + wall.material);
+  const WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(candidateIndex)];
+  for (int component = 0; component < law_.stateSize; ++component) s.memory[component][k] = candidate.memory[component];
 }
 
 // A grain that rolls from one feature to the next stays in contact: the new contact starts with the memory of the old one, as far as

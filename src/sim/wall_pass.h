@@ -3,6 +3,7 @@
 // kernels as between grains.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sim/diagnostics/acting_contact.h"
@@ -45,7 +46,9 @@ struct SlabWalls {
 struct WallPlace {
   Pose pose;
   Twist twist;
-  Mat3 rotation = Mat3::Identity();  ///< of the pose, while the slabs are evaluated
+  // Made from these before the slabs are evaluated.
+  Mat3 rotation = Mat3::Identity();
+  std::optional<Plane> plane;  ///< in the world, when the wall is an unbounded plane
 
   Vec3 toLocal(const Vec3& world) const { return rotation.transpose() * (world - pose.translation); }
 };
@@ -58,7 +61,10 @@ class WallPass {
   double moveTo(double t, double dt);
   const std::vector<WallPlace>& places() const { return places_; }
   /// Where a wall is that moves under load.
-  void place(std::size_t wall, const WallPlace& place) { places_[wall] = place; }
+  void place(std::size_t wall, const Pose& pose, const Twist& twist) {
+    places_[wall].pose = pose;
+    places_[wall].twist = twist;
+  }
   /// What the grains did to the walls that move under load, in the order of these, in the last step.
   std::vector<WallLoad> loads() const;
 
@@ -81,6 +87,18 @@ class WallPass {
 
  private:
   struct Batch;
+  /// A contact in the world: normal towards the grain, distance of its centre, where it is, share of the law that acts.
+  struct Touch {
+    Vec3 normal;
+    double distance;
+    Vec3 point;
+    double weight;
+  };
+  void evaluatePlane(SlabWalls& slab, WallGroup& group, const PassContext& context, Batch& batch);
+  void put(SlabWalls& slab, const WallGroup& group, std::int32_t candidateIndex, const Touch& contact, const PassContext& context, Batch& batch);
+  void putEnded(SlabWalls& slab, const WallGroup& group, std::int32_t candidateIndex, const PassContext& context, Batch& batch);
+  void putColumns(SlabWalls& slab, const WallGroup& group, std::int32_t candidateIndex, const Vec3& d, const Vec3& point, double weight,
+                  const PassContext& context, Batch& batch);
   void evaluateGroup(SlabWalls& slab, WallGroup& group, const PassContext& context, Batch& batch);
   void handOver(const Surface& surface, SlabWalls& slab, const WallGroup& group, const WallContacts& contacts, const Mat3& rotation);
   void flush(SlabWalls& slab, const PassContext& context, Batch& batch);

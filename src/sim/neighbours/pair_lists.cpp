@@ -67,7 +67,8 @@ void PairLists::turnRound(Remembered& contact) const {
 
 // Brings what is remembered into the new order, (lower, higher) and sorted.
 void PairLists::placeRemembered(const State& state, const std::vector<std::int32_t>& newPlace) {
-  std::vector<std::int32_t> start(state.size() + 1, 0);
+  std::vector<std::int32_t>& from = rememberedFrom_;
+  from.assign(state.size() + 1, 0);
   std::size_t kept = 0;
   for (Remembered& contact : remembered_) {
     contact.i = newPlace[static_cast<std::size_t>(contact.i)];
@@ -75,12 +76,13 @@ void PairLists::placeRemembered(const State& state, const std::vector<std::int32
     if (contact.i < 0 || contact.j < 0) continue;
     if (contact.i > contact.j) turnRound(contact);
     remembered_[kept++] = contact;
-    ++start[static_cast<std::size_t>(contact.i) + 1];
+    ++from[static_cast<std::size_t>(contact.i) + 1];
   }
   remembered_.resize(kept);
-  for (std::size_t g = 1; g < start.size(); ++g) start[g] += start[g - 1];
+  for (std::size_t g = 1; g < from.size(); ++g) from[g] += from[g - 1];
   std::vector<Remembered> sorted(kept);
-  for (const Remembered& contact : remembered_) sorted[static_cast<std::size_t>(start[static_cast<std::size_t>(contact.i)]++)] = contact;
+  std::vector<std::int32_t> next = from;
+  for (const Remembered& contact : remembered_) sorted[static_cast<std::size_t>(next[static_cast<std::size_t>(contact.i)]++)] = contact;
   remembered_.swap(sorted);
 }
 
@@ -194,34 +196,23 @@ void PairLists::build(State& state, const Slabs& slabs, const CellGrid& grid, do
     for (std::size_t k = 1; k < across[s].size(); k += 2) across[s][k] += pairs.firstImage;
     sortPairs({&own[s], &before[s + 1], &across[s]}, slabs.begin(slab), slabs.end(slab), pairs.outerI, pairs.outerJ);
     filterSlab(state, pairs, innerSkin);
-    if (stateSize_ > 0) handMemory(pairs, slabs.begin(slab), slabs.end(slab));
+    if (stateSize_ > 0) handMemory(pairs);
   });
   remembered_.clear();
 }
 
 // What is remembered goes to the same pairs in the new lists: seen from the lower grain, also where the pair is seen from the higher one
 // (across the boundary).
-void PairLists::handMemory(SlabPairs& pairs, std::int32_t first, std::int32_t last) const {
-  const auto lower = [](const Remembered& contact, std::int32_t grain) { return contact.i < grain; };
-  const auto hand = [&](const Remembered& contact, std::size_t pair) {
-    for (int c = 0; c < stateSize_; ++c) pairs.memory[static_cast<std::size_t>(c) * pairs.stride + pair] = contact.memory[c];
-  };
-  auto contact = std::lower_bound(remembered_.begin(), remembered_.end(), first, lower);
-  const auto end = std::lower_bound(contact, remembered_.end(), last, lower);
-  std::size_t k = 0;
-  for (; contact != end; ++contact) {
-    while (k < pairs.i.size() && pairs.i[k] < contact->i) ++k;
-    for (std::size_t here = k; here < pairs.i.size() && pairs.i[here] == contact->i; ++here)
-      if (pairs.j[here] == contact->j) hand(*contact, here);
-  }
-  for (std::size_t pair = 0; pair < pairs.i.size() && !pairs.images.empty(); ++pair) {
-    if (pairs.j[pair] < pairs.firstImage) continue;
+void PairLists::handMemory(SlabPairs& pairs) const {
+  for (std::size_t pair = 0; pair < pairs.i.size(); ++pair) {
     const std::int32_t i = pairs.i[pair], j = pairs.grainOf(pairs.j[pair]), low = std::min(i, j), high = std::max(i, j);
-    for (auto old = std::lower_bound(remembered_.begin(), remembered_.end(), low, lower); old != remembered_.end() && old->i == low; ++old) {
-      if (old->j != high) continue;
-      Remembered seen = *old;
+    const auto first = static_cast<std::size_t>(rememberedFrom_[static_cast<std::size_t>(low)]);
+    const auto last = static_cast<std::size_t>(rememberedFrom_[static_cast<std::size_t>(low) + 1]);
+    for (std::size_t k = first; k < last; ++k) {
+      if (remembered_[k].j != high) continue;
+      Remembered seen = remembered_[k];
       if (i != low) turnRound(seen);
-      hand(seen, pair);
+      for (int c = 0; c < stateSize_; ++c) pairs.memory[static_cast<std::size_t>(c) * pairs.stride + pair] = seen.memory[c];
     }
   }
 }

@@ -76,13 +76,14 @@ class PairLists {
                            std::vector<Image>& images);
   void placeImages(State& state, const Slabs& slabs);
   void placeRemembered(const State& state, const std::vector<std::int32_t>& newPlace);
-  void handMemory(SlabPairs& pairs, std::int32_t first, std::int32_t last) const;
+  void handMemory(SlabPairs& pairs) const;
   void filterSlab(State& state, SlabPairs& pairs, double innerSkin) const;
 
   int stateSize_;
   unsigned odd_;
   std::vector<SlabPairs> slabs_;
-  std::vector<Remembered> remembered_;  // between two orders; sorted by i
+  std::vector<Remembered> remembered_;        // between two orders; sorted by i
+  std::vector<std::int32_t> rememberedFrom_;  // where those of each grain begin
   struct Fold {
     std::int32_t owner, image;
   };
