@@ -12,8 +12,9 @@
 #include "scene/wall_pictures.h"
 #include "sim/fields/drag.h"
 #include "sim/fields/gravity.h"
-#include "sim/state.h"
+#include "sim/pass.h"
 #include "sim/periodic.h"
+#include "sim/state.h"
 
 namespace tsubu::scene {
 
@@ -273,6 +274,7 @@ FramePlan planFrames(const Scene& scene, const sim::Model& model, double speed, 
   plan.ledgerInterval = ledgerInterval(scene.output);
   const sim::TimeStepChoice choice = sim::chooseTimeStep(model);
   plan.limit = choice.limit;
+  if (!choice.warning.empty()) warnings.push_back(choice.warning);
   double step;
   if (s.timeStep) {
     step = *s.timeStep;
@@ -308,6 +310,7 @@ Built build(const Scene& scene) {
   sim::checkPeriods(built.model);
   buildWalls(scene, built);
   buildMagnets(scene, built.model);
+  sim::checkIntegrator(built.model);
   built.plan = planFrames(scene, built.model, expectedSpeed(built.model, built.bounds, scene.simulation.end), built.warnings);
   built.model.timeStep = built.plan.timeStep;
   built.style = buildStyle(scene);

@@ -13,7 +13,11 @@ using namespace dimension;
 
 void describeSimulation(Form& form, Simulation& s) {
   static constexpr Choice integrators[] = {{"symplectic_euler", "Velocity first, then position with the new velocity: first order."},
-                                           {"velocity_verlet", "Half a kick, drift, half a kick: second order."}};
+                                           {"velocity_verlet", "Half a kick, drift, half a kick; dashpots see velocities carried on: second order."},
+                                           {"explicit_euler", "Both from the old values: first order, gains energy in every step (to see why it is not used)."},
+                                           {"leapfrog", "Velocities at half steps, which contacts see: second order, first with dashpots."},
+                                           {"central_differences", "Positions from the last two (Störmer): the path of leapfrog, with more rounding."},
+                                           {"rk4", "Runge–Kutta: fourth order where contacts are smooth, four evaluations per step."}};
   static constexpr Choice axes[] = {{"x", {}}, {"y", {}}, {"z", {}}};
   static constexpr Choice violations[] = {{"stop", "End the run with a sentence that says which grain, where, when and why."},
                                           {"warn", "Say it once and go on."}};

@@ -1,15 +1,22 @@
 #pragma once
-// The integrators (docs/physics.md, I1–I3). One pass moves the grains, clears their force rows and finds the fastest.
+// The integrators (docs/physics.md, I1–I7). One pass moves the grains, clears their force rows and finds the fastest.
 //
-//   I1  symplectic Euler   v ← v + a Δt,  x ← x + v Δt;                 contacts see v
-//   I2  velocity Verlet    u ← u + a Δt,  x ← x + u Δt;                 contacts see v = u + ½ a Δt
+//   I1  symplectic Euler     v ← v + a Δt,  x ← x + v Δt;                 contacts see v
+//   I2  velocity Verlet      u ← u + a Δt,  x ← x + u Δt;                 contacts see v = u + ½ a Δt
+//   I5  explicit Euler       x ← x + v Δt,  v ← v + a Δt;                 contacts see v
+//   I6  leapfrog             u ← u + a Δt,  x ← x + u Δt;                 contacts see u
+//   I7  central differences  x' = 2x − x_before + a Δt²;                  contacts see (x − x_before)/Δt
 //
 // u is the velocity at half steps. The velocity of the same instant as x is u + ½ a Δt with the acceleration of that instant, which
 // is not known before the force that needs it; with the last one the error is of second order in Δt, and the dashpot keeps the order
-// of the scheme (with u alone, as is common, it would be first). Both schemes conserve momentum; along the normal, without
-// damping, they are symplectic (across it, see T6).
+// of the scheme (I2). With u alone, as is common (I6), it is of first. All of these conserve momentum; along the normal, without
+// damping, I1, I2, I6 and I7 are symplectic (across it, see T6), and I5 gains energy in every step.
 // Rotation is the same for L = I ω; a sphere's inertia is a number, so that r ω is advanced: d(r ω)/dt = −(5/2) Q/m.
-//   I3  orientation        q ← exp(½ ∫ω dt) q, with ω at half steps summed over `turnEvery` steps; where magnets read it, over one.
+//   I3  orientation          q ← exp(½ ∫ω dt) q, with the ω that the step goes by, summed over `turnEvery` steps. It only shows;
+//                            where magnets read it, over one.
+// The Runge–Kutta method has a file of its own (runge_kutta.h).
+
+#include <limits>
 
 #include "sim/neighbours/slabs.h"
 #include "sim/state.h"
@@ -20,7 +27,22 @@ namespace tsubu::sim {
 struct Motion {
   double fastest2 = 0;  ///< (m/s)²: the largest squared speed
   double travel2 = 0;   ///< largest (distance moved in the step / radius)²; NaN counts as infinite
+
+  /// A grain goes with the square of this speed; `scale`: Δt/r.
+  TSUBU_INLINE void add(double speed2, double scale) {
+    const double way2 = speed2 * scale * scale;
+    fastest2 = speed2 > fastest2 ? speed2 : fastest2;
+    if (!(way2 <= travel2)) travel2 = way2 == way2 ? way2 : std::numeric_limits<double>::infinity();
+  }
 };
+
+/// dv/dt and d(rω)/dt
+struct Acceleration {
+  V3 linear, surface;
+};
+TSUBU_INLINE Acceleration accelerationOf(const GrainRow& row, const ForceRow& force, V3 gravity) {
+  return {row.inverseMass * V3{force.fx, force.fy, force.fz} + gravity, (-2.5 * row.inverseMass) * V3{force.qx, force.qy, force.qz}};
+}
 
 /// Steps from one update of the orientations to the next. Fixed, so that looking at them changes nothing.
 inline constexpr std::uint64_t turnEvery = 32;
@@ -28,9 +50,8 @@ inline constexpr std::uint64_t turnEvery = 32;
 /// Moves grains [first, last) by one step and clears their forces. `turn`: also bring their orientations up to date.
 Motion integrate(State& state, std::int32_t first, std::int32_t last, const Vec3& gravity, double dt, bool turn);
 
-/// Sets the half-step velocities of grains from this id on from the velocities of the rows and the present forces: what velocity Verlet
-/// starts with.
-void startVerlet(State& state, std::uint32_t firstId, const Vec3& gravity, double dt);
+/// What schemes with half steps start with, for grains from this id on: the present forces take velocities back by half a step.
+void startHalfSteps(State& state, std::uint32_t firstId, const Vec3& gravity, double dt);
 
 /// The velocities of the present instant, forces known: v and r ω.
 struct Velocities {

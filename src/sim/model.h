@@ -14,6 +14,7 @@
 #include "sim/fields/magnets.h"
 #include "sim/insertion/stream.h"
 #include "sim/properties.h"
+#include "sim/scheme.h"
 #include "sim/walls/body.h"
 #include "sim/walls/motion.h"
 #include "sim/walls/surface.h"
@@ -31,8 +32,6 @@ struct ContactChoice {
 
   bool operator==(const ContactChoice&) const = default;
 };
-
-enum class Integrator { symplecticEuler, velocityVerlet };
 
 struct Material {
   std::string name;
@@ -115,6 +114,7 @@ inline constexpr double expectedOverlap = 0.01;
 struct TimeStepChoice {
   double limit = 0;      ///< s: stability limit of the stiffest way in which the smallest grains of a packing can swing (S2, S3)
   std::string limitedBy;
+  std::string warning;  ///< empty, or why no step would be stable
 };
 
 /// \brief The stability limit from the model alone (docs/physics.md, S1–S3). Throws Error when there is nothing to derive it from.

@@ -25,10 +25,12 @@ std::vector<std::size_t> byId(const State& state) {
 
 }  // namespace
 
-// The velocities that contacts see are those of the instant, and known also when the forces are not.
+// The velocities that contacts see are those of the instant, and known also when the forces are not; half-step velocities are carried on
+// in free fall.
 double Simulation::Impl::energyOf(std::size_t grain) const {
   const GrainRow& row = state.rows[grain];
-  return (0.5 * norm2(row.velocity()) + 0.2 * norm2(row.surfaceSpin()) - gravity.now().dot(positionOf(row))) / row.inverseMass;
+  const Vec3 v = Vec3(row.vx, row.vy, row.vz) + (scheme.behind - scheme.ahead) * model.timeStep * gravity.now();
+  return (0.5 * v.squaredNorm() + 0.2 * norm2(row.surfaceSpin()) - gravity.now().dot(positionOf(row))) / row.inverseMass;
 }
 
 Ledger Simulation::Impl::ledgerNow() {
@@ -65,10 +67,10 @@ Ledger Simulation::Impl::ledgerNow() {
   double work = 0;
   for (const Accounts& accounts : last)
     for (int k = 0; k < Accounts::overlap; ++k) step[static_cast<std::size_t>(k)] += accounts.sum(static_cast<Accounts::Kind>(k));
-  for (const SlabWalls& slab : walls.slabs()) work += slab.work - (1 - lead) * slab.lastWork;
+  for (const SlabWalls& slab : walls.slabs()) work += slab.work - (1 - scheme.lead) * slab.lastWork;
   const auto dissipated = [&](Accounts::Kind kind) {
     const auto k = static_cast<std::size_t>(kind);
-    return total[k] - (1 - lead) * step[k];
+    return total[k] - (1 - scheme.lead) * step[k];
   };
   ledger.elasticNormal = step[Accounts::storedNormal];
   ledger.elasticTangential = step[Accounts::storedTangential];
@@ -84,8 +86,8 @@ Ledger Simulation::Impl::ledgerNow() {
   ledger.heat.removed = removedHeat;
   ledger.initial = initialEnergy;
   ledger.workFields = gravity.work() + wrapWork;
-  for (const MovingWall& wall : moving) wall.account(model.timeStep, lead, gravity.now(), ledger);
-  for (const auto& pass : passes) pass->account(world(), ledger);
+  for (const MovingWall& wall : moving) wall.account(model.timeStep, scheme, gravity.now(), ledger);
+  for (const auto& pass : passes) pass->account(world(time(), model.timeStep), ledger);
 
   const Ledger& before = lastLedger;
   const double motion = ledger.mechanical() - ledger.gravitational - (before.mechanical() - before.gravitational);
@@ -101,7 +103,7 @@ std::vector<WallState> Simulation::Impl::movingWallsNow() {
   computeForces();
   std::vector<WallState> states;
   for (const MovingWall& wall : moving)
-    states.push_back({model.walls[wall.wall()].name, wall.way(), wall.speedNow(model.timeStep, lead), wall.load()});
+    states.push_back({model.walls[wall.wall()].name, wall.way(), wall.speedNow(model.timeStep, scheme), wall.load()});
   return states;
 }
 
@@ -210,7 +212,7 @@ void Simulation::Impl::addLoads(std::vector<double>& load) const {
   const LawFunctions& functions = lawFunctions(law);
   visitContacts([&](SeenContact& seen) {
     ContactEnergy energy{};
-    const ContactForce force = functions.evaluate(seen.constants, seen.contact, {model.timeStep, lead}, seen.memory, energy);
+    const ContactForce force = functions.evaluate(seen.constants, seen.contact, stepOf(), seen.memory, energy);
     const double normal = seen.weight * std::abs(dot(force.force, seen.contact.n));
     load[seen.i] += normal;
     if (seen.j != noGrain) load[seen.j] += normal;
@@ -222,9 +224,9 @@ double Simulation::Impl::storedInContactsOf(const std::vector<char>& grains) con
   double energy = 0;
   visitContacts([&](SeenContact& seen) {
     if (!grains[seen.i] && (seen.j == noGrain || !grains[seen.j])) return;
-    const double springs = functions.stored(seen.constants, seen.contact, {model.timeStep, lead}, seen.memory);
+    const double springs = functions.stored(seen.constants, seen.contact, stepOf(), seen.memory);
     ContactEnergy now{};
-    functions.evaluate(seen.constants, seen.contact, {model.timeStep, lead}, seen.memory, now);
+    functions.evaluate(seen.constants, seen.contact, stepOf(), seen.memory, now);
     energy += seen.weight * (now.storedNormal + springs);
   });
   return energy;
@@ -302,8 +304,10 @@ std::uint64_t Simulation::Impl::stateHash() {
     const GrainRow& row = state.rows[g];
     hash.add(std::uint64_t{state.id[g]});
     for (const double value : {row.x, row.y, row.z, row.vx, row.vy, row.vz, row.sx, row.sy, row.sz}) hash.add(value);
-    if (state.verlet)
+    if (!state.half.empty())
       for (const double value : {state.half[g].vx, state.half[g].vy, state.half[g].vz}) hash.add(value);
+    if (!state.previous.empty())
+      for (const double value : state.previous[g]) hash.add(value);
     if (state.turns)
     {
       const Quat orientation = orientationNow(state, g);

@@ -1,5 +1,8 @@
 #include "sim/pass.h"
 
+#include <fmt/format.h>
+
+#include "core/error.h"
 #include "sim/fields/drag.h"
 #include "sim/fields/magnet_pass.h"
 #include "sim/heat.h"
@@ -10,14 +13,24 @@ namespace tsubu::sim {
 bool grainsTurn(const Model& model) { return lawFunctions(lawIndex(model.contact)).traits.turns || hasPermanentMagnets(model); }
 
 std::vector<std::unique_ptr<ForcePass>> makePasses(const Model& model) {
-  const bool turns = grainsTurn(model), verlet = model.integrator == Integrator::velocityVerlet;
+  const bool turns = grainsTurn(model);
   const Fields& fields = model.fields;
   std::vector<std::unique_ptr<ForcePass>> passes;
-  if (fields.drag) passes.push_back(std::make_unique<DragPass>(*fields.drag, turns, verlet));
+  if (fields.drag) passes.push_back(std::make_unique<DragPass>(*fields.drag, turns, schemeOf(model.integrator).dragLimit));
   if (fields.damping) passes.push_back(std::make_unique<DampingPass>(*fields.damping, turns));
   if (model.magnets) passes.push_back(std::make_unique<MagnetPass>(model));
   if (model.heat) passes.push_back(std::make_unique<HeatPass>(model));
   return passes;
+}
+
+void checkIntegrator(const Model& model) {
+  if (model.integrator != Integrator::rungeKutta) return;
+  const std::string hint = "choose another integrator";
+  for (const auto& pass : makePasses(model))
+    if (!pass->evaluatesAnew())
+      throw Error(ErrorKind::scene, fmt::format("Runge-Kutta evaluates all forces four times in a step, which '{}' cannot.", pass->name()), hint);
+  for (const Wall& wall : model.walls)
+    if (wall.body) throw Error(ErrorKind::scene, fmt::format("Runge-Kutta does not move walls under load, as wall '{}' is.", wall.name), hint);
 }
 
 }  // namespace tsubu::sim

@@ -33,6 +33,7 @@ struct World {
   double skin;   ///< m: two grains approach each other by less between one regroup() and the next
   double time;   ///< s
   StepOf step;
+  double share;  ///< s: the time that an evaluation stands for in accounts of energy: Δt, or less where a step has several
 };
 
 class ForcePass {
@@ -47,6 +48,8 @@ class ForcePass {
   /// Adds to the force rows. The result must not depend on the number of threads: a slab's task writes to the grains of that slab
   /// alone, or tasks run in two colours as the pair pass does.
   virtual void addForces(const World& world) = 0;
+  /// May forces be evaluated several times in a step (I8)? Not where a pass remembers.
+  virtual bool evaluatesAnew() const { return false; }
   /// Adds what it stores, what it has dissipated and what work it has done, as of the present instant.
   virtual void account(const World&, Ledger&) const {}
   /// J: what goes when these grains (marked by their places) go, or has come with them.
@@ -57,6 +60,9 @@ class ForcePass {
 
 /// Do grains turn? Without friction only magnets ask for it.
 bool grainsTurn(const Model& model);
+
+/// Throws Error(scene) when the integrator cannot do what the model asks for.
+void checkIntegrator(const Model& model);
 
 /// The passes that this model asks for, in the order of the step.
 std::vector<std::unique_ptr<ForcePass>> makePasses(const Model& model);

@@ -16,7 +16,8 @@ namespace tsubu::sim {
 Plan Simulation::plan(const Model& model) {
   const std::size_t law = lawIndex(model.contact);
   const LawTraits& traits = lawFunctions(law).traits;
-  const bool verlet = model.integrator == Integrator::velocityVerlet;
+  const Scheme scheme = schemeOf(model.integrator);
+  const bool kept = model.integrator == Integrator::velocityVerlet, previous = model.integrator == Integrator::centralDifferences;
   Plan plan;
   const auto item = [&](bool modelled, std::string what) { (modelled ? plan.modelled : plan.notModelled).push_back(std::move(what)); };
   item(true, fmt::format("normal contact: {}{}", model.contact.normal, model.contact.tension ? ", with tension" : ""));
@@ -47,9 +48,9 @@ Plan Simulation::plan(const Model& model) {
   plan.passes.push_back(periodic ? "pair contacts, also across the periodic boundary" : "pair contacts");
   if (!model.walls.empty()) plan.passes.push_back("wall contacts");
   for (const auto& pass : makePasses(model)) plan.passes.push_back(pass->name());
-  plan.passes.push_back(verlet ? "integrate: velocity Verlet" : "integrate: symplectic Euler");
+  plan.passes.push_back(fmt::format("integrate: {}", scheme.name));
 
-  plan.bytesPerGrain = sizeof(GrainRow) + sizeof(ForceRow) + (verlet ? sizeof(HalfStepRow) : 0) + (grainsTurn(model) ? sizeof(Quat) + sizeof(AngleRow) : 0) +
+  plan.bytesPerGrain = sizeof(GrainRow) + sizeof(ForceRow) + (kept ? sizeof(HalfStepRow) : 0) + (previous ? sizeof(Vec3) : 0) + (grainsTurn(model) ? sizeof(Quat) + sizeof(AngleRow) : 0) +
                        (model.heat ? 2 * sizeof(double) : 0) + sizeof(std::uint16_t) + sizeof(std::uint32_t) + (model.counters.empty() ? 0 : sizeof(std::uint32_t)) + sizeof(Vec3);
   plan.bytesPerContact = static_cast<std::size_t>(traits.stateSize) * sizeof(double);
   plan.bytesPerListedPair = 5 * sizeof(std::int32_t);

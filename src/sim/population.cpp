@@ -74,7 +74,7 @@ std::uint32_t Simulation::Impl::sidesOf(const Vec3& position) const {
 }
 
 void Simulation::Impl::addGrain(const Grain& grain) {
-  state.add(grain, model.materials[grain.material].values[Property::density], 0.5 * model.timeStep * gravity.now());
+  state.add(grain, model.materials[grain.material].values[Property::density], gravity.now(), model.timeStep);
   if (!model.counters.empty()) state.sides.push_back(sidesOf(grain.position));
   rebuildNeeded = true;
 }

@@ -36,6 +36,7 @@ Simulation::Impl::Impl(Model given, int threads)
       moving(wallsUnderLoad(model)),
       passes(makePasses(model)),
       stages(static_cast<std::size_t>(threads)) {
+  checkIntegrator(model);
   prepareLaws();
   for (const MovingWall& wall : moving) contactsOfMoving.push_back(stiffestContact(model, law, wall.wall()));
   checkPeriods(model);
@@ -53,7 +54,8 @@ Simulation::Impl::Impl(Model given, int threads)
 void Simulation::Impl::prepareLaws() {
   constants = preparePairs(model, law);
   classes = classesOfPairs(model, constants);
-  lead = model.integrator == Integrator::velocityVerlet ? 0.5 : 1.0;
+  scheme = schemeOf(model.integrator);
+  if (model.integrator == Integrator::rungeKutta) rungeKutta.emplace(model, lawFunctions(law), constants);
   if (!(model.timeStep > 0)) throw Error(ErrorKind::scene, "The time step must be positive.");
   for (const Wall& wall : model.walls) {
     const auto plane = wall.surface->asPlane();
@@ -95,7 +97,7 @@ void Simulation::Impl::warnOfWalls() {
 
 void Simulation::Impl::prepareState() {
   if (model.counters.size() > 32) throw Error(ErrorKind::scene, fmt::format("There are {} counters, more than 32.", model.counters.size()));
-  state.verlet = model.integrator == Integrator::velocityVerlet;
+  state.integrator = model.integrator;
   state.turns = grainsTurn(model);
   state.conducts = model.heat;
   if (hasPermanentMagnets(model)) turnInterval = 1;
@@ -109,11 +111,17 @@ void Simulation::Impl::prepareState() {
 
 PassContext Simulation::Impl::context(PairClass pairClass, bool oneClass) {
   return {state.rows.data(), state.forces.data(),           state.material.data(), model.materials.size(),
-          oneClass ? constants.of(pairClass.first) : constants.values.data(), {model.timeStep, lead}};
+          oneClass ? constants.of(pairClass.first) : constants.values.data(), stepOf()};
 }
 
-World Simulation::Impl::world() {
-  return {model, state, slabs, pairs, periods, walls, team, gravity.now(), outerSkin, time(), {model.timeStep, lead}};
+StepOf Simulation::Impl::stepOf() const {
+  StepOf step{model.timeStep, scheme.lead};
+  if (rungeKutta) step.turning = step.mean = 0;
+  return step;
+}
+
+World Simulation::Impl::world(double t, double share) {
+  return {model, state, slabs, pairs, periods, walls, team, gravity.now(), outerSkin, t, stepOf(), share};
 }
 
 void Simulation::Impl::step() {
@@ -133,6 +141,20 @@ void Simulation::Impl::computeForces(For whom) {
 
   walls.settle();
   accountsKnown = model.ledger || steps % watchEvery == 0;
+  if (rungeKutta) rungeKutta->keepMemory(pairs, walls);
+  evaluateContacts();
+  book(1);
+  for (const auto& pass : passes) pass->addForces(world(time(), (rungeKutta ? RungeKutta::weight[0] : 1.0) * model.timeStep));
+  loadMovingWalls();
+  wallTravel += wallStep;
+  if (firstArrival < state.nextId) startHalfSteps(state, firstArrival, gravity.now(), model.timeStep);
+  firstArrival = state.nextId;
+  forcesKnown = true;
+  if (accountsKnown) watchOverlap();
+}
+
+// Forces of all contacts, with what they put into the accounts (`last`).
+void Simulation::Impl::evaluateContacts() {
   const auto onPairs = pairKernel(law, {classes.grains.alike, accountsKnown});
   const auto onWalls = wallKernel(law, {classes.walls.alike, accountsKnown});
   const PassContext grainsWorld = context(classes.grains, onPairs.oneClass), wallsWorld = context(classes.walls, onWalls.oneClass);
@@ -155,17 +177,14 @@ void Simulation::Impl::computeForces(For whom) {
     });
   }
   if (pairs.hasImages()) team.run(slabs.count(), [&](int slab, int) { pairs.foldImages(state, slab); });
-  if (model.ledger)
-    for (const Accounts& accounts : last)
-      for (int k = Accounts::normal; k <= Accounts::rolling; ++k)
-        total[static_cast<std::size_t>(k)] += accounts.sum(static_cast<Accounts::Kind>(k));
-  for (const auto& pass : passes) pass->addForces(world());
-  loadMovingWalls();
-  wallTravel += wallStep;
-  if (state.verlet && firstArrival < state.nextId) startVerlet(state, firstArrival, gravity.now(), model.timeStep);
-  firstArrival = state.nextId;
-  forcesKnown = true;
-  if (accountsKnown) watchOverlap();
+}
+
+// Adds a share of what the last evaluation dissipated to the totals.
+void Simulation::Impl::book(double share) {
+  if (!model.ledger) return;
+  for (const Accounts& accounts : last)
+    for (int k = Accounts::normal; k <= Accounts::rolling; ++k)
+      total[static_cast<std::size_t>(k)] += share * accounts.sum(static_cast<Accounts::Kind>(k));
 }
 
 void Simulation::Impl::changeGravity() {
@@ -185,16 +204,17 @@ void Simulation::Impl::loadMovingWalls() {
   const std::vector<WallLoad> loads = walls.loads();
   for (std::size_t w = 0; w < moving.size(); ++w) {
     MovingWall& wall = moving[w];
-    wall.feel(loads[w], gravity.now(), time(), model.timeStep, lead);
-    if (warnedLightWall_ || !(model.timeStep > stableStep(wall, contactsOfMoving[w], state.verlet))) continue;
+    wall.feel(loads[w], gravity.now(), time(), model.timeStep, scheme);
+    const double limit = stableStep(wall, contactsOfMoving[w], model.integrator);
+    if (warnedLightWall_ || !(model.timeStep > limit)) continue;
     warnedLightWall_ = true;
     complain(fmt::format("Wall '{}' is too light for {} contacts at once: its step would have to be below {:.4g} s, t = {:.6g} s.",
-                         model.walls[wall.wall()].name, wall.contacts(), stableStep(wall, contactsOfMoving[w], state.verlet), time()),
+                         model.walls[wall.wall()].name, wall.contacts(), limit, time()),
              "give it more mass, or use a smaller time_step");
   }
 }
 
-void Simulation::Impl::move() {
+Motion Simulation::Impl::moveBySlabs() {
   std::vector<Motion>& found = motions;
   found.assign(static_cast<std::size_t>(slabs.count()), Motion{});
   const bool turn = (steps + 1) % turnInterval == 0;
@@ -206,9 +226,39 @@ void Simulation::Impl::move() {
     most.fastest2 = std::max(most.fastest2, motion.fastest2);
     most.travel2 = std::max(most.travel2, motion.travel2);
   }
+  return most;
+}
+
+// The step's first evaluation has been made; three more follow (I8). Accounts take each with its weight.
+Motion Simulation::Impl::moveByStages() {
+  const double dt = model.timeStep;
+  const std::vector<Accounts> atStart = last;
+  book(RungeKutta::weight[0] - 1);
+  rungeKutta->collect(0, state, slabs, pairs, walls, gravity.now(), dt, team);
+  for (int stage = 1; stage < RungeKutta::stages; ++stage) {
+    const auto k = static_cast<std::size_t>(stage);
+    const double t = time() + RungeKutta::place[k] * dt;
+    rungeKutta->moveTo(stage, state, slabs, pairs, walls, dt, team);
+    if (gravity.changes()) gravity.moveTo(t, model.ledger ? momentOfMass() : Vec3(Vec3::Zero()));
+    walls.moveTo(t, dt);
+    evaluateContacts();
+    book(RungeKutta::weight[k]);
+    for (const auto& pass : passes) pass->addForces(world(t, RungeKutta::weight[k] * dt));
+    rungeKutta->collect(stage, state, slabs, pairs, walls, gravity.now(), dt, team);
+  }
+  last = atStart;
+  const Motion motion = rungeKutta->finish(state, pairs, walls, dt);
+  const RungeKutta::Springs springs = rungeKutta->uncounted();
+  total[Accounts::friction] += springs.tangential;
+  total[Accounts::rolling] += springs.rolling;
+  return motion;
+}
+
+void Simulation::Impl::move() {
+  const Motion most = rungeKutta ? moveByStages() : moveBySlabs();
   for (std::size_t g = 0; g < state.temperature.size(); ++g) state.temperature[g] += state.warming[g];
   double wallStep = 0;
-  for (MovingWall& wall : moving) wallStep = std::max(wallStep, wall.move(model.timeStep, lead));
+  for (MovingWall& wall : moving) wallStep = std::max(wallStep, wall.move(model.timeStep, scheme));
   wallTravel += wallStep;
   fastest = std::sqrt(most.fastest2);
   innerTravel += fastest * model.timeStep;
@@ -266,6 +316,7 @@ void Simulation::Impl::wrapGrains() {
     const Vec3 x(row.x, row.y, row.z), shift = periods.shiftInto(x);
     if (shift == Vec3::Zero()) continue;
     state.wrap[g] = shift;
+    if (!state.previous.empty()) state.previous[g] += shift;
     row.x += shift.x(), row.y += shift.y(), row.z += shift.z();
     wrapWork -= gravity.now().dot(shift) / row.inverseMass;
     if (model.counters.empty()) continue;
@@ -303,7 +354,7 @@ void Simulation::Impl::rebuildLists() {
   state.reference.resize(state.size());
   for (std::size_t g = 0; g < state.size(); ++g) state.reference[g] = {state.rows[g].x, state.rows[g].y, state.rows[g].z};
   state.wrap.clear();
-  for (const auto& pass : passes) pass->regroup(world(), newPlace);
+  for (const auto& pass : passes) pass->regroup(world(time(), model.timeStep), newPlace);
   outerTravel = wallTravel = 0;
   rebuildNeeded = false;
 }

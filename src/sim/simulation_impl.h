@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 
 #include "core/thread_team.h"
 #include "sim/fields/gravity.h"
@@ -14,6 +15,7 @@
 #include "sim/neighbours/slabs.h"
 #include "sim/pair_constants.h"
 #include "sim/pass.h"
+#include "sim/runge_kutta.h"
 #include "sim/simulation.h"
 #include "sim/state.h"
 #include "sim/wall_pass.h"
@@ -51,7 +53,7 @@ class Simulation::Impl {
   LawTraits traits{};
   PairConstants constants;
   PairClasses classes{};
-  double lead = 1;
+  Scheme scheme;
   GravityClock gravity;
   Periods periods;
 
@@ -62,6 +64,7 @@ class Simulation::Impl {
   std::vector<MovingWall> moving;                   ///< walls that move under load
   std::vector<ContactMode> contactsOfMoving;        ///< the stiffest that each can have, for a mass of 1 kg
   std::vector<std::unique_ptr<ForcePass>> passes;  ///< beside contacts
+  std::optional<RungeKutta> rungeKutta;        ///< when it is the integrator
   std::vector<Stage> stages;                   ///< one per thread
   std::vector<Accounts> last;                  ///< one per slab: this step's
   std::vector<std::vector<ActingContact>> acting;  ///< one per slab: the contacts of the present instant, noted for an observer
@@ -106,15 +109,23 @@ class Simulation::Impl {
   void loadMovingWalls();
   void addGrain(const Grain& grain);
 
-  bool listsAreDue() const { return rebuildNeeded || 2 * wallTravel > outerSkin || 2 * innerTravel > innerSkin; }
+  /// Lists that hold for a step must hold at all its stages.
+  double stageTravel() const { return rungeKutta ? fastest * model.timeStep : 0; }
+  bool listsAreDue() const { return rebuildNeeded || 2 * wallTravel > outerSkin || 2 * (innerTravel + stageTravel()) > innerSkin; }
   void chooseSkins();
   void refreshLists();
   void wrapGrains();
   void rebuildLists();
   bool outerListsHold();
   PassContext context(PairClass pairClass, bool oneClass);
-  World world();
+  /// What passes see at time t (s); `share` as in World.
+  World world(double t, double share);
+  void book(double share);
+  StepOf stepOf() const;
+  void evaluateContacts();
   void move();
+  Motion moveBySlabs();
+  Motion moveByStages();
 
   void watchOverlap();
   void watchTravel();

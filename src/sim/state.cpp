@@ -6,18 +6,18 @@ namespace tsubu::sim {
 
 double massOf(double density, double radius) { return density * (4.0 / 3.0 * std::numbers::pi) * radius * radius * radius; }
 
-void State::add(const Grain& grain, double density, const Vec3& freeFall) {
+void State::add(const Grain& grain, double density, const Vec3& gravity, double dt) {
   if (images > 0) setImages(0);
   const Vec3& x = grain.position;
-  const Vec3& v = grain.velocity;
+  const Vec3 before = grain.velocity - 0.5 * dt * gravity;
+  const bool seesHalfSteps = integrator == Integrator::leapfrog || integrator == Integrator::centralDifferences;
+  const Vec3& v = seesHalfSteps ? before : grain.velocity;
   const Vec3 s = turns ? Vec3(grain.radius * grain.angularVelocity) : Vec3(Vec3::Zero());
   rows.push_back({x.x(), x.y(), x.z(), grain.radius, v.x(), v.y(), v.z(), 1 / massOf(density, grain.radius), s.x(), s.y(), s.z(),
                   1 / grain.radius});
   forces.push_back({});
-  if (verlet) {
-    const Vec3 before = v - freeFall;
-    half.push_back({before.x(), before.y(), before.z(), 0, s.x(), s.y(), s.z(), 0});
-  }
+  if (integrator == Integrator::velocityVerlet) half.push_back({before.x(), before.y(), before.z(), 0, s.x(), s.y(), s.z(), 0});
+  if (integrator == Integrator::centralDifferences) previous.push_back(x - dt * before);
   if (turns) {
     orientation.push_back(grain.orientation.normalized());
     turned.push_back({});
@@ -53,6 +53,7 @@ void State::reorder(const std::vector<std::int32_t>& order) {
   images = 0;
   reorderOne(rows, order);
   reorderOne(half, order);
+  reorderOne(previous, order);
   reorderOne(orientation, order);
   reorderOne(turned, order);
   reorderOne(material, order);

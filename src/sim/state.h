@@ -8,10 +8,11 @@
 #include "core/vec.h"
 #include "sim/grain_rows.h"
 #include "sim/insertion/grain.h"
+#include "sim/scheme.h"
 
 namespace tsubu::sim {
 
-/// Velocities half a step before those of the row: velocity Verlet's own (docs/physics.md, I2).
+/// Velocities half a step before the positions: velocity Verlet's own (docs/physics.md, I2).
 struct alignas(64) HalfStepRow {
   double vx, vy, vz, unused0;
   double sx, sy, sz, unused1;
@@ -26,7 +27,8 @@ struct alignas(32) AngleRow {
 struct State {
   std::vector<GrainRow> rows;
   std::vector<ForceRow> forces;
-  std::vector<HalfStepRow> half;         ///< empty unless the integrator keeps half-step velocities
+  std::vector<HalfStepRow> half;         ///< velocity Verlet
+  std::vector<Vec3> previous;            ///< central differences: positions one step ago
   std::vector<Quat> orientation;         ///< empty unless grains turn; as it was when `turned` was last zero
   std::vector<AngleRow> turned;          ///< ∫ω dt since then: orientations only show, and are brought up to date every few steps
   std::vector<std::uint16_t> material;
@@ -37,7 +39,7 @@ struct State {
   std::vector<Vec3> reference;           ///< positions at the last rebuild of the outer lists
   std::vector<Vec3> wrap;                ///< what the last rebuild added to the positions; empty unless the domain is periodic
 
-  bool verlet = false;
+  Integrator integrator = Integrator::symplecticEuler;
   bool turns = false;
   bool conducts = false;
   std::uint32_t nextId = 0;
@@ -47,8 +49,9 @@ struct State {
   std::size_t size() const { return rows.size() - images; }
   double mass(std::size_t g) const { return 1 / rows[g].inverseMass; }
 
-  /// Adds a grain; its velocity is that of the present instant. `freeFall` (m/s): what a force-free half step adds, ½ g Δt.
-  void add(const Grain& grain, double density, const Vec3& freeFall);
+  /// Adds a grain; its velocity is that of the present instant. Schemes that keep something of the last (half) step take it as free
+  /// fall.
+  void add(const Grain& grain, double density, const Vec3& gravity, double dt);
   /// Makes room for so many images, or takes them away.
   void setImages(std::size_t count);
   /// Puts the grains into a new order: place k gets what was at order[k]. Grains that `order` leaves out are gone, and all images.

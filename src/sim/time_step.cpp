@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -38,8 +39,31 @@ std::vector<double> smallestRadii(const Model& model) {
 // S4: a stiffness that depends on the overlap is taken at `expectedOverlap`.
 // S3: in a packing ω² and 2ζω are at most `mostNeighbours` times those of one contact. `rate`: what drag and damping add to 2ζω of a
 // grain by itself.
-double stableStepInPacking(ContactMode contact, bool verlet, bool alongNormal, double rate) {
-  return stableStep({mostNeighbours * contact.stiffness, mostNeighbours * contact.damping + rate}, verlet, alongNormal);
+ContactMode inPacking(ContactMode contact, double rate) {
+  return {mostNeighbours * contact.stiffness, mostNeighbours * contact.damping + rate};
+}
+
+// Explicit Euler: λ² − (2 − 2ζW) λ + (1 − 2ζW + W²); the product of the roots reaches 1 at W = 2ζ, the larger of two real ones −1 before.
+double stableEulerStep(ContactMode mode) {
+  const double omega = std::sqrt(mode.stiffness), half = 0.5 * mode.damping;
+  if (half < omega) return mode.damping / mode.stiffness;
+  return 2 / (half + std::sqrt(half * half - mode.stiffness));
+}
+// Where that is shorter than this share of 1/ω, this is taken: the energy of an undamped contact then grows by exp(πW) − 1 = 3 %.
+constexpr double leastEulerStep = 0.01;
+
+// Runge–Kutta: |1 + z + z²/2 + z³/6 + z⁴/24| ≤ 1 with z = Δt (−ζω ± iω √(1−ζ²)).
+double stableRungeKuttaStep(ContactMode mode) {
+  const double omega = std::sqrt(mode.stiffness), half = 0.5 * mode.damping;
+  if (half >= omega) return schemeOf(Integrator::rungeKutta).dragLimit / (half + std::sqrt(half * half - mode.stiffness));
+  const std::complex<double> direction(-half, std::sqrt(mode.stiffness - half * half));
+  const auto stable = [&](double dt) {
+    const std::complex<double> z = dt * direction;
+    return std::norm(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)))) <= 1 + 1e-12;
+  };
+  double low = 2 / omega, high = 4 / omega;  // stable and unstable for any ζ
+  for (int n = 0; n < 50; ++n) (stable(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+  return low;
 }
 
 // By material: the fastest that drag and damping slow down any of its grains at the speed it starts with.
@@ -84,9 +108,14 @@ void considerMagnets(const Model& model, TimeStepChoice& choice) {
 
 }  // namespace
 
-// S2: a mode ω, ζ is stable up to Δt = 2(√(1 + s²ζ²) − sζ)/ω, where s = 1 for symplectic Euler and 2 for velocity Verlet, whose
-// dashpot sees a velocity carried on by half a step (I2). Its tangential and rolling springs do so too: for them also Δt ≤ √2/ω.
-double stableStep(ContactMode mode, bool verlet, bool alongNormal) {
+// S2: a mode ω, ζ is stable up to Δt = 2(√(1 + s²ζ²) − sζ)/ω, where s = 1 for symplectic Euler, leapfrog and central differences, and 2
+// for velocity Verlet, whose dashpot sees a velocity carried on by half a step (I2). Its tangential and rolling springs do so too: for
+// them also Δt ≤ √2/ω.
+double stableStep(ContactMode mode, Integrator integrator, bool alongNormal) {
+  if (integrator == Integrator::explicitEuler)
+    return mode.stiffness > 0 ? std::max(stableEulerStep(mode), leastEulerStep / std::sqrt(mode.stiffness)) : 2 / mode.damping;
+  if (integrator == Integrator::rungeKutta) return stableRungeKuttaStep(mode);
+  const bool verlet = integrator == Integrator::velocityVerlet;
   const double omega = std::sqrt(mode.stiffness), s = verlet ? 2 : 1;
   // 2(√(ω² + (s·2ζω/2)²) − s·2ζω/2)/ω² without the difference, which a strong dashpot would leave to rounding.
   const double half = 0.5 * s * mode.damping, bound = 2 / (std::sqrt(omega * omega + half * half) + half);
@@ -108,9 +137,9 @@ ContactMode stiffestContact(const Model& model, std::size_t law, std::size_t wal
   return stiffest;
 }
 
-double stableStep(const MovingWall& wall, ContactMode contact, bool verlet) {
+double stableStep(const MovingWall& wall, ContactMode contact, Integrator integrator) {
   const double n = wall.contacts(), inverseMass = 1 / wall.body().mass;
-  return stableStep({n * contact.stiffness * inverseMass, (n * contact.damping + wall.body().damping) * inverseMass}, verlet, true);
+  return stableStep({n * contact.stiffness * inverseMass, (n * contact.damping + wall.body().damping) * inverseMass}, integrator, true);
 }
 
 TimeStepChoice chooseTimeStep(const Model& model) {
@@ -119,14 +148,14 @@ TimeStepChoice chooseTimeStep(const Model& model) {
   const PairConstants constants = preparePairs(model, law);
   const std::vector<double> radius = smallestRadii(model);
   const std::vector<DampingRates> damping = fastestDamping(model);
-  const bool verlet = model.integrator == Integrator::velocityVerlet;
   std::vector<char> isWall(n, 0);
   std::vector<double> inverseWallMass(n, 0);
   for (const Wall& wall : model.walls) {
     isWall[wall.material] = 1;
     if (wall.body) inverseWallMass[wall.material] = std::max(inverseWallMass[wall.material], 1 / wall.body->mass);
   }
-  TimeStepChoice choice{std::numeric_limits<double>::infinity(), {}};
+  TimeStepChoice choice{std::numeric_limits<double>::infinity(), {}, {}};
+  bool grows = false;
   const auto inverseMass = [&](std::size_t a) { return 1 / massOf(model.materials[a].values[Property::density], radius[a]); };
   const auto rateOf = [&](std::size_t a, std::size_t b, bool turning) {
     const double linear = std::max(damping[a].linear, damping[b].linear), rotary = std::max(damping[a].rotary, damping[b].rotary);
@@ -135,9 +164,12 @@ TimeStepChoice chooseTimeStep(const Model& model) {
   const auto consider = [&](std::size_t a, std::size_t b, double inverseMasses, double effectiveRadius, double smallerRadius, const std::string& what) {
     const auto modes = lawFunctions(law).modes(constants.of(a * n + b), expectedOverlap * smallerRadius, effectiveRadius, inverseMasses);
     for (std::size_t mode = 0; mode < modes.size(); ++mode) {
-      const double limit = stableStepInPacking(modes[mode], verlet, mode == 0, rateOf(a, b, mode > 0));
+      const ContactMode packed = inPacking(modes[mode], rateOf(a, b, mode > 0));
+      if (packed.stiffness == 0 && packed.damping == 0) continue;
+      const double limit = stableStep(packed, model.integrator, mode == 0);
+      grows = grows || (model.integrator == Integrator::explicitEuler && stableEulerStep(packed) < limit);
       constexpr std::array names{"stiffness", "tangential stiffness", "rolling stiffness", "twisting stiffness"};
-      if (limit < choice.limit) choice = {limit, fmt::format("{} of {}", names[mode], what)};
+      if (limit < choice.limit) choice = {limit, fmt::format("{} of {}", names[mode], what), {}};
     }
   };
   for (std::size_t a = 0; a < n; ++a) {
@@ -153,14 +185,17 @@ TimeStepChoice chooseTimeStep(const Model& model) {
     }
     const double rate = std::max(damping[a].linear, damping[a].rotary);
     // Where drag alone allows hardly more than together with the stiffest contact, it is the drag that sets the step.
-    if (const double limit = (verlet ? 1 : 2) / rate; rate > 0 && 0.9 * limit < choice.limit)
+    if (const double limit = schemeOf(model.integrator).dragLimit / rate; rate > 0 && 0.9 * limit < choice.limit)
       choice = {std::min(limit, choice.limit),
-                fmt::format("{} of {}, smallest grains", damping[a].fluid ? "drag" : "damping", model.materials[a].name)};
+                fmt::format("{} of {}, smallest grains", damping[a].fluid ? "drag" : "damping", model.materials[a].name), {}};
   }
   considerMagnets(model, choice);
   considerHeat(model, choice);
   if (!std::isfinite(choice.limit))
     throw Error(ErrorKind::scene, "There is nothing to derive a time step from: no grain meets a grain or a wall.", "give time_step");
+  if (grows)
+    choice.warning = "Explicit Euler has no stable step for contacts that are hardly damped: their energy grows, by some per cent in each at the "
+                     "step that is taken for the limit.";
   return choice;
 }
 

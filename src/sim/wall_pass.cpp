@@ -245,6 +245,7 @@ void WallPass::put(SlabWalls& slab, const WallGroup& group, std::int32_t candida
   WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(candidateIndex)];
   candidate.normal = contact.normal;
   candidate.touching = true;
+  candidate.weight = contact.weight;
   const GrainRow& row = context.rows[group.grain];
   putColumns(slab, group, candidateIndex, std::max(contact.distance, leastDistance * row.radius) * contact.normal, contact.point, contact.weight,
              context, batch);
@@ -255,6 +256,7 @@ void WallPass::put(SlabWalls& slab, const WallGroup& group, std::int32_t candida
 void WallPass::putEnded(SlabWalls& slab, const WallGroup& group, std::int32_t candidateIndex, const PassContext& context, Batch& batch) {
   WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(candidateIndex)];
   candidate.touching = false;
+  candidate.weight = 1;
   const GrainRow& row = context.rows[group.grain];
   putColumns(slab, group, candidateIndex, 2 * row.radius * candidate.normal, centreOf(row), 1, context, batch);
 }

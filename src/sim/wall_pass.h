@@ -21,6 +21,7 @@ struct WallCandidate {
   std::uint32_t feature = 0;
   bool touching = false;     ///< in the last step
   Vec3 normal;               ///< of that contact, world
+  double weight = 1;         ///< share of the law that acted (W3)
   double memory[mostMemory] = {};
 };
 

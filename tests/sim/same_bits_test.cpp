@@ -75,7 +75,7 @@ void expectSame(const Outcome& a, const Outcome& b, const std::string& what) {
 }
 
 TEST(SameBits, ForAnyNumberOfThreads) {
-  for (const Integrator integrator : {Integrator::symplecticEuler, Integrator::velocityVerlet}) {
+  for (const Integrator integrator : {Integrator::symplecticEuler, Integrator::velocityVerlet, Integrator::rungeKutta}) {
     const Scenario s = busy(integrator);
     const Outcome one = run(s, 1);
     EXPECT_GT(one.inserted, 5u);
@@ -106,7 +106,8 @@ TEST(SameBits, WithAndWithoutLedger) {
 
 // Looking forces the evaluation of forces that the next step would have made: it must be the same evaluation, made once.
 TEST(SameBits, HoweverOftenOneLooks) {
-  for (const Integrator integrator : {Integrator::symplecticEuler, Integrator::velocityVerlet}) {
+  for (const Integrator integrator : {Integrator::symplecticEuler, Integrator::velocityVerlet, Integrator::explicitEuler, Integrator::leapfrog,
+                                      Integrator::centralDifferences, Integrator::rungeKutta}) {
     Scenario s = busy(integrator);
     const Outcome unseen = run(s, 1);
     Simulation sim = s.start(dt);

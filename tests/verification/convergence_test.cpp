@@ -28,16 +28,17 @@ Eigen::VectorXd stateAfter(const Scenario& scenario, double dt) {
   return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
+constexpr std::array integrators{Integrator::explicitEuler,      Integrator::symplecticEuler, Integrator::leapfrog,
+                                 Integrator::centralDifferences, Integrator::velocityVerlet,  Integrator::rungeKutta};
+
 struct Order {
   double order, error;  // error at the finer of two steps, m
 };
-Order measuredOrder(const Scenario& s, Integrator integrator) {
+/// `exact`: the state at the end.
+Order measuredOrder(const Scenario& s, const Eigen::VectorXd& exact, Integrator integrator) {
   Scenario same = s;
-  same.model.integrator = Integrator::velocityVerlet;  // the reference: steps sixty-four times finer
-  const double coarse = span / 200, fine = span / 400;
-  const Eigen::VectorXd exact = stateAfter(same, span / 25600);
   same.model.integrator = integrator;
-  const double a = (stateAfter(same, coarse) - exact).norm(), b = (stateAfter(same, fine) - exact).norm();
+  const double a = (stateAfter(same, span / 200) - exact).norm(), b = (stateAfter(same, span / 400) - exact).norm();
   return {std::log2(a / b), b};
 }
 
@@ -84,27 +85,34 @@ Scenario turningPair(double e, double mu, const std::string& rolling) {
 struct Case {
   const char* name;
   Scenario scenario;
-  double euler, verlet;  ///< expected orders
-  double luck = 0.15;    ///< how far velocity Verlet may be off: a sticking contact begins to slide somewhere within a step
+  std::array<double, 6> orders;  ///< expected, in the order of `integrators`
+  double luck = 0.2;             ///< how far they may be off: a sticking contact begins to slide somewhere within a step
 };
 
-// Order 1 and 2, for springs, dashpots, sticking and sliding alike.
 TEST(Convergence, OrdersOfTheIntegrators) {
-  const std::array cases{Case{"spring", squeezed(1), 1, 2},
-                         Case{"spring and dashpot, e = 0.5", squeezed(0.5), 1, 2},
-                         Case{"sticking", squeezedSideways(1, 100, "none"), 1, 2},
-                         Case{"sticking, damped", squeezedSideways(0.5, 100, "none"), 1, 2},
-                         Case{"sliding", squeezedSideways(0.5, 0.01, "none"), 1, 2, 0.7},
-                         Case{"turning pair", turningPair(1, 0, "none"), 1, 2},
-                         Case{"turning pair, sticking", turningPair(1, 100, "none"), 1, 2},
-                         Case{"turning pair, damped", turningPair(0.9, 100, "none"), 1, 2},
-                         Case{"turning pair, rolling type C", turningPair(0.9, 100, "elastic_plastic"), 1, 2}};
-  fmt::print("  {:<32} {:>22} {:>22}\n", "", "symplectic Euler", "velocity Verlet");
+  const std::array cases{Case{"spring", squeezed(1), {1, 1, 2, 2, 2, 4}},
+                         Case{"spring and dashpot, e = 0.5", squeezed(0.5), {1, 1, 1, 1, 2, 4}},
+                         Case{"sticking", squeezedSideways(1, 100, "none"), {1, 1, 2, 2, 2, 4}},
+                         Case{"sticking, damped", squeezedSideways(0.5, 100, "none"), {1, 1, 1, 1, 2, 4}},
+                         Case{"sliding", squeezedSideways(0.5, 0.01, "none"), {1, 1, 1, 1, 2, 2}, 0.7},
+                         Case{"turning pair", turningPair(1, 0, "none"), {1, 1, 2, 2, 2, 4}},
+                         Case{"turning pair, sticking", turningPair(1, 100, "none"), {1, 1, 1, 1, 2, 4}},
+                         Case{"turning pair, damped", turningPair(0.9, 100, "none"), {1, 1, 1, 1, 2, 4}},
+                         Case{"turning pair, rolling type C", turningPair(0.9, 100, "elastic_plastic"), {1, 1, 1, 1, 2, 4}}};
+  fmt::print("| contact |");
+  for (const Integrator integrator : integrators) fmt::print(" {} |", schemeOf(integrator).name);
+  fmt::print("\n");
   for (const Case& each : cases) {
-    const Order euler = measuredOrder(each.scenario, Integrator::symplecticEuler), verlet = measuredOrder(each.scenario, Integrator::velocityVerlet);
-    fmt::print("  {:<32} {:>10.2f} ({:.1e} m) {:>10.2f} ({:.1e} m)\n", each.name, euler.order, euler.error, verlet.order, verlet.error);
-    EXPECT_NEAR(euler.order, each.euler, 0.15) << each.name;
-    EXPECT_NEAR(verlet.order, each.verlet, each.luck) << each.name;
+    Scenario reference = each.scenario;
+    reference.model.integrator = Integrator::rungeKutta;
+    const Eigen::VectorXd exact = stateAfter(reference, span / 12800);
+    fmt::print("| {} |", each.name);
+    for (std::size_t n = 0; n < integrators.size(); ++n) {
+      const Order order = measuredOrder(each.scenario, exact, integrators[n]);
+      fmt::print(" {:.2f} ({:.1e} m) |", order.order, order.error);
+      EXPECT_NEAR(order.order, each.orders[n], each.luck) << each.name << ", " << schemeOf(integrators[n]).name;
+    }
+    fmt::print("\n");
   }
 }
 

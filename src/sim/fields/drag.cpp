@@ -40,8 +40,8 @@ DampingRates dampingRates(const Fields& fields, double mass, double radius, doub
   return {fluid.linear + rest.linear, fluid.rotary + rest.rotary, fluid.linear + fluid.rotary > rest.linear + rest.rotary};
 }
 
-DragPass::DragPass(const Drag& drag, bool turns, bool verlet)
-    : drag_(drag), flow_(drag.flow), turns_(turns && drag.torque && drag.viscosity > 0), limit_(verlet ? 1 : 2) {}
+DragPass::DragPass(const Drag& drag, bool turns, double limit)
+    : drag_(drag), flow_(drag.flow), turns_(turns && drag.torque && drag.viscosity > 0), limit_(limit) {}
 
 std::string DragPass::name() const { return drag_.buoyancy && drag_.density > 0 ? "drag and buoyancy" : "drag"; }
 
@@ -69,8 +69,8 @@ void DragPass::addForces(const World& world) {
     share.dissipated += turning * norm2(spin);
     share.work -= turning * dot(spin, flow.turning);
   });
-  dissipated_.add(sum.dissipated * dt);
-  work_.add(sum.work * dt);
+  dissipated_.add(sum.dissipated * world.share);
+  work_.add(sum.work * world.share);
   if (sum.strongest > limit_) {
     const GrainRow& row = world.state.rows[sum.where];
     throw Error(ErrorKind::simulation,
@@ -98,7 +98,7 @@ void DampingPass::addForces(const World& world) {
     addTorque(force, -d * spin, row.inverseRadius);
     share.dissipated += d * norm2(spin);
   });
-  dissipated_.add(sum.dissipated * world.step.dt);
+  dissipated_.add(sum.dissipated * world.share);
 }
 
 void DampingPass::account(const World& world, Ledger& ledger) const { ledger.dissipatedDrag += dissipated_.now(world.step.lead); }

@@ -28,10 +28,12 @@ DampingRates dampingRates(const Fields& fields, double mass, double radius, doub
 
 class DragPass : public ForcePass {
  public:
-  DragPass(const Drag& drag, bool turns, bool verlet);
+  /// `limit`: of c Δt/m, for a grain by itself.
+  DragPass(const Drag& drag, bool turns, double limit);
   std::string name() const override;
   /// Throws Error(simulation) when the quadratic drag has become too strong for the time step.
   void addForces(const World& world) override;
+  bool evaluatesAnew() const override { return true; }
   void account(const World& world, Ledger& ledger) const override;
 
  private:
@@ -48,6 +50,7 @@ class DampingPass : public ForcePass {
   DampingPass(const GlobalDamping& damping, bool turns) : damping_(damping), turns_(turns) {}
   std::string name() const override { return "global damping"; }
   void addForces(const World& world) override;
+  bool evaluatesAnew() const override { return true; }
   void account(const World& world, Ledger& ledger) const override;
 
  private:

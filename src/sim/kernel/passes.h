@@ -177,7 +177,7 @@ void compute(const PassContext& context, int count, Stage& s, double* const* mem
       c.slip = dv - c.separationSpeed * c.n - arm * cross(spin, c.n);
       // Between grains the mean is weighted with the radii, which the sum of r ω gives for nothing; any mean turns with the pair.
       const V3 frameSpin = weighted ? V3{s.ox[q], s.oy[q], s.oz[q]} : inverseRadiusSum * spin;
-      c.frameAngle = step.dt * dot(frameSpin, c.n);
+      c.frameAngle = step.turning * dot(frameSpin, c.n);
     }
     if constexpr (Law::rolls) {
       c.relativeSpin = {s.rx[q], s.ry[q], s.rz[q]};

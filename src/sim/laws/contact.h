@@ -21,18 +21,21 @@ struct Contact {
 };
 
 /// The step as a law sees it. Memory is kept at half steps: it is advanced by a whole step, and the force is taken `lead` of a step
-/// beyond the old memory (½ for velocity Verlet, 1 for symplectic Euler, where memory and position belong to the same instant).
+/// beyond the old memory (½ for velocity Verlet, 1 for symplectic Euler, where memory and position belong to the same instant, 0 where
+/// it belongs to the present one and is advanced for the next).
 struct StepOf {
   double dt;  ///< s
   double lead;
   double perSecond = 1 / dt;  ///< kernels multiply rather than divide
+  double turning = dt;        ///< s: for how long memories turn about n (0 where the integrator turns them itself)
+  double mean = 0.5;          ///< share of a step's stretching in the spring force that its work is taken with (0: the force as it is)
 };
 
 /// T6: a dashpot of this ratio c/k (s) keeps the tangential and rolling springs of velocity Verlet from gaining energy. They are
 /// stretched by velocities carried on by half a step (I2) and lag a little behind, and a lag gives an oscillation W⁴/4 of its energy
 /// per step, W = ω Δt. The dashpot takes away W_c² W², with W_c = Δt √(k/m) of the contact alone. Of third order in Δt.
 TSUBU_INLINE double quieting(double stiffnessOverMass, StepOf step) {
-  return step.lead < 1 ? stiffnessOverMass * step.dt * step.dt * step.dt : 0;
+  return step.lead > 0 && step.lead < 1 ? stiffnessOverMass * step.dt * step.dt * step.dt : 0;
 }
 
 /// One way in which a contact can swing, for the time step: ω² in 1/s², and what its dashpot does, 2ζω in 1/s.

@@ -71,7 +71,7 @@ struct ElasticPlasticRolling {
     memory.spring = keep * (before + gain);
     setStiffness(memory, k);
     const double active = yields ? 0.0 : damping, storedAfter = 0.5 / larger(k, tiny) * norm2(memory.spring);
-    const double work = (keep * dot(before + 0.5 * gain, rolling) + active * norm2(rolling)) * step.dt;
+    const double work = (keep * dot(before + step.mean * gain, rolling) + active * norm2(rolling)) * step.dt;
     return {-keep * trial - active * rolling, ease.before, storedAfter, work - (storedAfter - ease.before)};
   }
 };

@@ -112,7 +112,7 @@ struct SpringLaw {
       memory.spring = keep * (before + gain);
     setStiffness(memory, k);
     const double storedAfter = half * norm2(memory.spring);
-    const double springWork = keep * dot(before + 0.5 * gain, c.slip) * step.dt;
+    const double springWork = keep * dot(before + step.mean * gain, c.slip) * step.dt;
     return {force, storedBefore, storedAfter, keep * damping * norm2(c.slip) * step.dt, springWork - (storedAfter - storedBefore)};
   }
 

@@ -73,7 +73,7 @@ struct SpringTwisting {
     memory.spring = keep * (before + gain);
     setStiffness(memory, k);
     const double active = yields ? 0.0 : damping, storedAfter = 0.5 / larger(k, tiny) * memory.spring * memory.spring;
-    const double work = (keep * (before + 0.5 * gain) + active * spin) * spin * step.dt;
+    const double work = (keep * (before + step.mean * gain) + active * spin) * spin * step.dt;
     return {(-keep * trial - active * spin) * c.n, ease.before, storedAfter, work - (storedAfter - ease.before)};
   }
 };

@@ -4,7 +4,7 @@
 
 namespace tsubu::sim {
 
-void MovingWall::feel(const WallLoad& load, const Vec3& gravity, double time, double dt, double lead) {
+void MovingWall::feel(const WallLoad& load, const Vec3& gravity, double time, double dt, const Scheme& scheme) {
   load_ = load.force.dot(axis_);
   contacts_ = load.contacts;
   if (time < body_.start) return;
@@ -15,24 +15,26 @@ void MovingWall::feel(const WallLoad& load, const Vec3& gravity, double time, do
     push_ = 0.5 * body_.mass * seen_ * seen_;
   }
   acceleration_ = (load_ + body_.force - body_.damping * seen_) / body_.mass + (body_.weight ? gravity.dot(axis_) : 0.0);
-  if (letGo) speed_ = seen_ - (1 - lead) * dt * acceleration_;
+  if (letGo) speed_ = seen_ - scheme.behind * dt * acceleration_;
   work_.add(body_.force * seen_ * dt);
   dissipated_.add(body_.damping * seen_ * seen_ * dt);
 }
 
-double MovingWall::move(double dt, double lead) {
+double MovingWall::move(double dt, const Scheme& scheme) {
+  const double old = speed_;
   speed_ += dt * acceleration_;
-  way_ += dt * speed_;
-  seen_ = speed_ + (1 - lead) * dt * acceleration_;
-  return std::abs(dt * speed_);
+  const double goes = dt * (scheme.lead > 0 ? speed_ : old);  // explicit Euler goes by the old one
+  way_ += goes;
+  seen_ = speed_ + scheme.ahead * dt * acceleration_;
+  return std::abs(goes);
 }
 
-void MovingWall::account(double dt, double lead, const Vec3& gravity, Ledger& ledger) const {
-  const double speed = speedNow(dt, lead);
+void MovingWall::account(double dt, const Scheme& scheme, const Vec3& gravity, Ledger& ledger) const {
+  const double speed = speedNow(dt, scheme);
   ledger.kineticWalls += 0.5 * body_.mass * speed * speed;
   if (body_.weight) ledger.gravitational -= body_.mass * gravity.dot(axis_) * way_;
-  ledger.workWalls += push_ + work_.now(lead);
-  ledger.dissipatedDrag += dissipated_.now(lead);
+  ledger.workWalls += push_ + work_.now(scheme.lead);
+  ledger.dissipatedDrag += dissipated_.now(scheme.lead);
 }
 
 std::vector<MovingWall> wallsUnderLoad(const Model& model) {

@@ -5,7 +5,7 @@
 //
 // s is the way along the unit axis a, Σ F what grains do to the wall; a guide holds the wall against everything else and does no work. A
 // piston or a falling plate has a mass and weight; a wall held at a constant force has a force and a damping, and no weight: at rest
-// the grains carry exactly that force. The integrators are those of grains (I1, I2); loads are summed over the slabs in their order.
+// the grains carry exactly that force. The integrators are those of grains (I1, I2, I5–I7); loads are summed over the slabs in their order.
 
 #include <vector>
 
@@ -20,7 +20,7 @@ struct WallLoad {
   int contacts = 0;
 };
 
-/// One such wall. `lead` as in StepOf: ½ in velocity Verlet, 1 in symplectic Euler.
+/// One such wall. Every call names the integrator's scheme.
 class MovingWall {
  public:
   MovingWall(const WallBody& body, std::size_t wall) : body_(body), wall_(wall), axis_(body.axis.normalized()) {}
@@ -34,20 +34,20 @@ class MovingWall {
 
   /// m/s: what contacts see (I1, I2), and that of the present instant (load known).
   double speedSeen() const { return seen_; }
-  double speedNow(double dt, double lead) const { return speed_ + (1 - lead) * dt * acceleration_; }
+  double speedNow(double dt, const Scheme& scheme) const { return speed_ + scheme.behind * dt * acceleration_; }
 
   /// The load of the present instant is known.
-  void feel(const WallLoad& load, const Vec3& gravity, double time, double dt, double lead);
+  void feel(const WallLoad& load, const Vec3& gravity, double time, double dt, const Scheme& scheme);
   /// Takes a step; returns how far it goes, m.
-  double move(double dt, double lead);
+  double move(double dt, const Scheme& scheme);
 
-  void account(double dt, double lead, const Vec3& gravity, Ledger& ledger) const;
+  void account(double dt, const Scheme& scheme, const Vec3& gravity, Ledger& ledger) const;
 
  private:
   WallBody body_;
   std::size_t wall_;
   Vec3 axis_;
-  double way_ = 0, speed_ = 0, seen_ = 0;  // speed_: at half steps in velocity Verlet
+  double way_ = 0, speed_ = 0, seen_ = 0;  // speed_: at half steps where the scheme has them
   double acceleration_ = 0, load_ = 0;
   int contacts_ = 0;
   bool held_ = true;

@@ -1,0 +1,262 @@
+#include "sim/runge_kutta.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tsubu::sim {
+
+namespace {
+
+V3 v3(const Vec3& a) { return {a.x(), a.y(), a.z()}; }
+
+void setRow(GrainRow& row, V3 x, V3 v, V3 s) {
+  row.x = x.x, row.y = x.y, row.z = x.z;
+  row.vx = v.x, row.vy = v.y, row.vz = v.z;
+  row.sx = s.x, row.sy = s.y, row.sz = s.z;
+}
+
+}  // namespace
+
+void RungeKutta::keepMemory(const PairLists& pairs, const WallPass& walls) {
+  pairs_.resize(pairs.slabs().size());
+  for (std::size_t s = 0; s < pairs_.size(); ++s) pairs_[s].start = pairs.slabs()[s].memory;
+  wallsBefore_ = walls.slabs();
+}
+
+// A contact that touches no more has let its memory go; one that has begun may have taken over that of its neighbour on the wall, and
+// then starts with what the evaluation left.
+void RungeKutta::noteBeginnings(std::size_t slabNumber) {
+  const SlabWalls &slab = wallsAtStart_[slabNumber], &before = wallsBefore_[slabNumber];
+  std::vector<double>& start = walls_[slabNumber].start;
+  const auto size = static_cast<std::size_t>(stateSize_);
+  for (const WallGroup& group : slab.groups) {
+    const auto touched = [&](std::int32_t c) { return before.candidates[static_cast<std::size_t>(c)].touching; };
+    bool any = false;
+    for (std::int32_t c = group.first; c < group.last; ++c) any = any || touched(c);
+    for (std::int32_t c = group.first; c < group.last; ++c) {
+      const auto k = static_cast<std::size_t>(c);
+      const WallCandidate& candidate = slab.candidates[k];
+      const double* const source = any && candidate.touching && !touched(c) ? candidate.memory : before.candidates[k].memory;
+      for (std::size_t m = 0; m < size; ++m) start[k * size + m] = candidate.touching ? source[m] : 0.0;
+    }
+  }
+}
+
+RungeKutta::Frame RungeKutta::frameOf(const GrainRow& a, const GrainRow& b) {
+  const V3 d = a.position() - b.position(), dv = a.velocity() - b.velocity();
+  const double distance = norm(d), safe = larger(distance, tiny);
+  const V3 n = (1 / safe) * d, spin = (1 / (a.radius + b.radius)) * (a.surfaceSpin() + b.surfaceSpin());
+  return {n, (1 / safe) * (dv - dot(dv, n) * n), dot(spin, n), distance < a.radius + b.radius};
+}
+
+// The normal of a face turns with the wall. That of an edge or corner also turns while the grain goes round it; what that does to a
+// memory is left to the kernel, as in the other schemes (T3).
+RungeKutta::Frame RungeKutta::frameOf(const GrainRow& row, const WallCandidate& candidate, const WallPlace& place) {
+  const V3 n = v3(candidate.normal), turning = v3(place.twist.angularVelocity);
+  const V3 spin = 0.5 * (row.inverseRadius * row.surfaceSpin() + turning);
+  return {n, cross(turning, n), dot(spin, n), candidate.touching};
+}
+
+// Component c of the contact is at first + c × stride in the stages and at c × outStride in what the kernel has left.
+void RungeKutta::collectMemory(int stage, MemoryStages& memory, std::size_t first, std::size_t stride, const double* out,
+                               std::size_t outStride, const Frame& frame, double dt) const {
+  const double b = weight[static_cast<std::size_t>(stage)], perSecond = 1 / dt;
+  const auto note = [&](int c, double rate) {
+    const std::size_t at = first + static_cast<std::size_t>(c) * stride;
+    memory.rate[at] = frame.touching ? rate : 0.0;
+    memory.sum[at] += b * memory.rate[at];
+  };
+  for (int c = 0; c < stateSize_;) {
+    const auto in = [&](int k) { return memory.in[first + static_cast<std::size_t>(k) * stride]; };
+    const auto left = [&](int k) { return out[static_cast<std::size_t>(k) * outStride]; };
+    if ((odd_ >> c & 1U) == 0) {
+      note(c, perSecond * (left(c) - in(c)));
+      c += 1;
+      continue;
+    }
+    // The kernel has laid the vector into the tangent plane first: that is no gain.
+    const V3 laid = carried({in(c), in(c + 1), in(c + 2)}, frame.n, 0);
+    const V3 gain = perSecond * (V3{left(c), left(c + 1), left(c + 2)} - laid);
+    const V3 rate = gain - dot(frame.turning, laid) * frame.n + frame.spin * cross(frame.n, laid);
+    note(c, rate.x), note(c + 1, rate.y), note(c + 2, rate.z);
+    c += 3;
+  }
+}
+
+void RungeKutta::countSprings(double share, const double* memory, std::size_t stride, std::size_t pair, double effectiveRadius, double overlap,
+                              Springs& sum) const {
+  double all[mostMemory] = {}, tangential[mostMemory] = {};
+  bool any = false;
+  for (int c = 0; c < stateSize_; ++c) {
+    all[c] = memory[static_cast<std::size_t>(c) * stride];
+    if (c < law_.traits.tangentialSize) tangential[c] = all[c];
+    any = any || all[c] != 0;
+  }
+  if (!any || !model_.ledger) return;
+  Contact contact{};
+  contact.n = {0, 0, 1};
+  contact.overlap = larger(overlap, 0);
+  contact.effectiveMass = contact.inverseEffectiveMass = contact.inverseSpinInertia = 1;
+  contact.effectiveRadius = effectiveRadius;
+  const StepOf step{model_.timeStep, 0};
+  const double own = law_.stored(constants_.of(pair), contact, step, tangential), both = law_.stored(constants_.of(pair), contact, step, all);
+  sum.tangential += share * own;
+  sum.rolling += share * (both - own);
+}
+
+void RungeKutta::countPair(double share, const State& state, const SlabPairs& slab, std::size_t k, const double* memory, Springs& sum) const {
+  const auto i = static_cast<std::size_t>(slab.i[k]), j = static_cast<std::size_t>(slab.j[k]);
+  const GrainRow &a = state.rows[i], &b = state.rows[j];
+  countSprings(share, memory, slab.stride, state.material[i] * model_.materials.size() + state.material[j],
+               1 / (a.inverseRadius + b.inverseRadius), a.radius + b.radius - norm(a.position() - b.position()), sum);
+}
+
+void RungeKutta::countWall(double share, const State& state, const WallGroup& group, const WallCandidate& candidate, const double* memory,
+                           Springs& sum) const {
+  const auto g = static_cast<std::size_t>(group.grain);
+  const std::size_t pair = state.material[g] * model_.materials.size() + model_.walls[group.wall].material;
+  countSprings(share * candidate.weight, memory, 1, pair, state.rows[g].radius, 0, sum);
+}
+
+void RungeKutta::collectPairs(int stage, const State& state, const SlabPairs& slab, MemoryStages& memory, double dt) const {
+  for (std::size_t k = 0; k < slab.i.size(); ++k) {
+    const Frame frame = frameOf(state.rows[static_cast<std::size_t>(slab.i[k])], state.rows[static_cast<std::size_t>(slab.j[k])]);
+    const double b = weight[static_cast<std::size_t>(stage)];
+    countPair(stage == 0 ? 1 - b : -b, state, slab, k, memory.in.data() + k, memory.uncounted);
+    countPair(b, state, slab, k, slab.memory.data() + k, memory.uncounted);
+    if (stage == 0 && !frame.touching)
+      for (std::size_t at = k; at < memory.start.size(); at += slab.stride) memory.start[at] = memory.in[at] = 0;
+    collectMemory(stage, memory, k, slab.stride, slab.memory.data() + k, slab.stride, frame, dt);
+  }
+}
+
+void RungeKutta::collectWalls(int stage, const State& state, const WallPass& walls, std::size_t slabNumber, double dt) {
+  const SlabWalls &slab = walls.slabs()[slabNumber], &start = wallsAtStart_[slabNumber];
+  MemoryStages& memory = walls_[slabNumber];
+  for (const WallGroup& group : slab.groups) {
+    for (std::int32_t c = group.first; c < group.last; ++c) {
+      const auto k = static_cast<std::size_t>(c);
+      Frame frame = frameOf(state.rows[static_cast<std::size_t>(group.grain)], slab.candidates[k], walls.places()[group.wall]);
+      const double b = weight[static_cast<std::size_t>(stage)];
+      const double* const in = stage == 0 ? wallsBefore_[slabNumber].candidates[k].memory : memory.in.data() + k * static_cast<std::size_t>(stateSize_);
+      countWall(stage == 0 ? 1 - b : -b, state, group, slab.candidates[k], in, memory.uncounted);
+      countWall(b, state, group, slab.candidates[k], slab.candidates[k].memory, memory.uncounted);
+      frame.touching = frame.touching && start.candidates[k].touching;  // one that begins within the step waits for the next
+      collectMemory(stage, memory, k * static_cast<std::size_t>(stateSize_), 1, slab.candidates[k].memory, 1, frame, dt);
+    }
+  }
+}
+
+void RungeKutta::collect(int stage, State& state, const Slabs& slabs, const PairLists& pairs, const WallPass& walls, const Vec3& gravity,
+                         double dt, ThreadTeam& team) {
+  const auto count = static_cast<std::size_t>(slabs.count());
+  if (stage == 0) {
+    grains_.resize(state.size());
+    walls_.resize(count);
+    wallsAtStart_ = walls.slabs();
+    wallWork_.assign(count, 0.0);
+  }
+  const double b = weight[static_cast<std::size_t>(stage)];
+  team.run(slabs.count(), [&](int slab, int) {
+    const auto s = static_cast<std::size_t>(slab);
+    if (stage == 0) {
+      pairs_[s].uncounted = walls_[s].uncounted = {};
+      pairs_[s].in = pairs_[s].start;
+      pairs_[s].rate.resize(pairs_[s].start.size());
+      pairs_[s].sum.assign(pairs_[s].start.size(), 0.0);
+      const std::size_t size = walls.slabs()[s].candidates.size() * static_cast<std::size_t>(stateSize_);
+      walls_[s].start.resize(size);
+      walls_[s].rate.resize(size);
+      walls_[s].sum.assign(size, 0.0);
+      noteBeginnings(s);
+      walls_[s].in = walls_[s].start;
+    }
+    if (stateSize_ > 0) {
+      collectPairs(stage, state, pairs.slabs()[s], pairs_[s], dt);
+      collectWalls(stage, state, walls, s, dt);
+    }
+    wallWork_[s] += b * walls.slabs()[s].lastWork;
+    for (std::int32_t g = slabs.begin(slab); g < slabs.end(slab); ++g) {
+      const auto k = static_cast<std::size_t>(g);
+      const GrainRow& row = state.rows[k];
+      GrainStages& grain = grains_[k];
+      const Acceleration a = accelerationOf(row, state.forces[k], v3(gravity));
+      state.forces[k] = ForceRow{};
+      if (stage == 0) {
+        grain = GrainStages{};
+        grain.start = {row.position(), row.velocity(), row.surfaceSpin(), state.turns ? state.orientation[k] : Quat::Identity()};
+      }
+      Moving& rate = grain.rate;
+      if (state.turns) {
+        // q̇ = ½ ω q, at the orientation of this stage: the start, or where the last rate has led.
+        const double c = place[static_cast<std::size_t>(stage)] * dt;
+        const Quat q(grain.start.q.coeffs() + c * rate.q.coeffs());
+        const V3 w = row.inverseRadius * row.surfaceSpin();
+        rate.q.coeffs() = 0.5 * (Quat(0, w.x, w.y, w.z) * q).coeffs();
+        grain.sum.q.coeffs() += b * rate.q.coeffs();
+      }
+      rate.x = row.velocity(), rate.v = a.linear, rate.s = state.turns ? a.surface : V3{0, 0, 0};
+      grain.sum.x = grain.sum.x + b * rate.x, grain.sum.v = grain.sum.v + b * rate.v, grain.sum.s = grain.sum.s + b * rate.s;
+    }
+  });
+}
+
+void RungeKutta::moveTo(int stage, State& state, const Slabs& slabs, PairLists& pairs, WallPass& walls, double dt, ThreadTeam& team) {
+  const double c = place[static_cast<std::size_t>(stage)] * dt;
+  walls.slabs() = wallsAtStart_;
+  team.run(slabs.count(), [&](int slab, int) {
+    const auto s = static_cast<std::size_t>(slab);
+    for (std::int32_t g = slabs.begin(slab); g < slabs.end(slab); ++g) {
+      const GrainStages& grain = grains_[static_cast<std::size_t>(g)];
+      setRow(state.rows[static_cast<std::size_t>(g)], grain.start.x + c * grain.rate.x, grain.start.v + c * grain.rate.v,
+             grain.start.s + c * grain.rate.s);
+    }
+    for (MemoryStages* memory : {&pairs_[s], &walls_[s]})
+      for (std::size_t k = 0; k < memory->in.size(); ++k) memory->in[k] = memory->start[k] + c * memory->rate[k];
+    pairs.slabs()[s].memory = pairs_[s].in;
+    const double* in = walls_[s].in.data();
+    for (WallCandidate& candidate : walls.slabs()[s].candidates)
+      for (int m = 0; m < stateSize_; ++m) candidate.memory[m] = *in++;
+  });
+}
+
+Motion RungeKutta::finish(State& state, PairLists& pairs, WallPass& walls, double dt) {
+  Motion motion;
+  for (std::size_t k = 0; k < grains_.size(); ++k) {
+    const GrainStages& grain = grains_[k];
+    GrainRow& row = state.rows[k];
+    setRow(row, grain.start.x + dt * grain.sum.x, grain.start.v + dt * grain.sum.v, grain.start.s + dt * grain.sum.s);
+    if (state.turns) state.orientation[k] = Quat(grain.start.q.coeffs() + dt * grain.sum.q.coeffs()).normalized();
+    motion.add(norm2(grain.sum.x), dt * row.inverseRadius);
+  }
+  walls.slabs() = wallsAtStart_;
+  for (std::size_t s = 0; s < pairs_.size(); ++s) {
+    const auto advance = [&](const MemoryStages& memory, std::size_t k) { return memory.start[k] + dt * memory.sum[k]; };
+    SlabPairs& listed = pairs.slabs()[s];
+    for (std::size_t k = 0; k < listed.memory.size(); ++k) listed.memory[k] = advance(pairs_[s], k);
+    for (std::size_t k = 0; k < listed.i.size() && stateSize_ > 0; ++k) countPair(-1, state, listed, k, listed.memory.data() + k, pairs_[s].uncounted);
+    SlabWalls& slab = walls.slabs()[s];
+    std::size_t k = 0;
+    for (const WallGroup& group : slab.groups) {
+      for (std::int32_t c = group.first; c < group.last; ++c) {
+        WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(c)];
+        for (int m = 0; m < stateSize_; ++m) candidate.memory[m] = advance(walls_[s], k++);
+        countWall(-1, state, group, candidate, candidate.memory, walls_[s].uncounted);
+      }
+    }
+    slab.work += wallWork_[s] - slab.lastWork;
+    slab.lastWork = 0;
+  }
+  return motion;
+}
+
+RungeKutta::Springs RungeKutta::uncounted() const {
+  Springs sum;
+  for (std::size_t s = 0; s < pairs_.size(); ++s) {
+    sum.tangential += pairs_[s].uncounted.tangential + walls_[s].uncounted.tangential;
+    sum.rolling += pairs_[s].uncounted.rolling + walls_[s].uncounted.rolling;
+  }
+  return sum;
+}
+
+}  // namespace tsubu::sim
