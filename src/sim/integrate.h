@@ -1,16 +1,16 @@
 #pragma once
-// The integrators (docs/physics.md, I1–I7). One pass moves the grains, clears their force rows and finds the fastest.
+// The integrators (docs/physics.md, I1–I6). One pass moves the grains, clears their force rows and finds the fastest.
 //
 //   I1  symplectic Euler     v ← v + a Δt,  x ← x + v Δt;                 contacts see v
 //   I2  velocity Verlet      u ← u + a Δt,  x ← x + u Δt;                 contacts see v = u + ½ a Δt
-//   I5  explicit Euler       x ← x + v Δt,  v ← v + a Δt;                 contacts see v
-//   I6  leapfrog             u ← u + a Δt,  x ← x + u Δt;                 contacts see u
-//   I7  central differences  x' = 2x − x_before + a Δt²;                  contacts see (x − x_before)/Δt
+//   I4  explicit Euler       x ← x + v Δt,  v ← v + a Δt;                 contacts see v
+//   I5  leapfrog             u ← u + a Δt,  x ← x + u Δt;                 contacts see u
+//   I6  central differences  x' = 2x − x_before + a Δt²;                  contacts see (x − x_before)/Δt
 //
 // u is the velocity at half steps. The velocity of the same instant as x is u + ½ a Δt with the acceleration of that instant, which
 // is not known before the force that needs it; with the last one the error is of second order in Δt, and the dashpot keeps the order
-// of the scheme (I2). With u alone, as is common (I6), it is of first. All of these conserve momentum; along the normal, without
-// damping, I1, I2, I6 and I7 are symplectic (across it, see T6), and I5 gains energy in every step.
+// of the scheme (I2). With u alone, as is common (I5), it is of first. All of these conserve momentum; along the normal, without
+// damping, I1, I2, I5 and I6 are symplectic (across it, see T6), and I4 gains energy in every step.
 // Rotation is the same for L = I ω; a sphere's inertia is a number, so that r ω is advanced: d(r ω)/dt = −(5/2) Q/m.
 //   I3  orientation          q ← exp(½ ∫ω dt) q, with the ω that the step goes by, summed over `turnEvery` steps. It only shows;
 //                            where magnets read it, over one.

@@ -48,7 +48,7 @@ class ForcePass {
   /// Adds to the force rows. The result must not depend on the number of threads: a slab's task writes to the grains of that slab
   /// alone, or tasks run in two colours as the pair pass does.
   virtual void addForces(const World& world) = 0;
-  /// May forces be evaluated several times in a step (I8)? Not where a pass remembers.
+  /// May forces be evaluated several times in a step (I7)? Not where a pass remembers.
   virtual bool evaluatesAnew() const { return false; }
   /// Adds what it stores, what it has dissipated and what work it has done, as of the present instant.
   virtual void account(const World&, Ledger&) const {}

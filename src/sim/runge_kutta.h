@@ -1,12 +1,11 @@
 #pragma once
-// The classical Runge–Kutta method (docs/physics.md, I8): four evaluations of all forces in a step.
+// The classical Runge–Kutta method (docs/physics.md, I7): four evaluations of all forces in a step.
 //
-//   I8   k_i = f(t + c_i Δt, y + c_i Δt k_{i−1}),  c = 0, ½, ½, 1;    y ← y + Δt (k_1 + 2k_2 + 2k_3 + k_4)/6
+//   I7   k_i = f(t + c_i Δt, y + c_i Δt k_{i−1}),  c = 0, ½, ½, 1;    y ← y + Δt (k_1 + 2k_2 + 2k_3 + k_4)/6
 //
 // The state y is positions, velocities, r ω, orientations and what contacts remember. The kernels advance a memory by a step and read
 // it as it was (lead 0); what they add, over Δt, is its rate, and every stage starts from the memory of the step's start. A memory in
-// the tangent plane also turns with its contact: Ω × m with Ω = n × ṅ + (ω̄·n) n. (Other schemes lay it into the new plane, T3, which
-// is of first order where it is neither along nor across the way n turns.) Neighbour lists stay as they are within a step.
+// the tangent plane also turns with its contact: Ω × m with Ω = n × ṅ + (ω̄·n) n. Neighbour lists stay as they are within a step.
 
 #include <array>
 #include <vector>

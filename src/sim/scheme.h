@@ -1,5 +1,5 @@
 #pragma once
-// The integrators by name, and what the rest of the step must know of them (docs/physics.md, I1–I8).
+// The integrators by name, and what the rest of the step must know of them (docs/physics.md, I1–I7).
 
 #include <string_view>
 

@@ -139,7 +139,6 @@ void Simulation::Impl::computeForces(For whom) {
   bookArrivals();
   if (gravity.changes() && model.ledger) gravity.settle(momentOfMass());
 
-  walls.settle();
   accountsKnown = model.ledger || steps % watchEvery == 0;
   if (rungeKutta) rungeKutta->keepMemory(pairs, walls);
   evaluateContacts();
@@ -155,6 +154,7 @@ void Simulation::Impl::computeForces(For whom) {
 
 // Forces of all contacts, with what they put into the accounts (`last`).
 void Simulation::Impl::evaluateContacts() {
+  walls.settle();
   const auto onPairs = pairKernel(law, {classes.grains.alike, accountsKnown});
   const auto onWalls = wallKernel(law, {classes.walls.alike, accountsKnown});
   const PassContext grainsWorld = context(classes.grains, onPairs.oneClass), wallsWorld = context(classes.walls, onWalls.oneClass);
@@ -229,7 +229,7 @@ Motion Simulation::Impl::moveBySlabs() {
   return most;
 }
 
-// The step's first evaluation has been made; three more follow (I8). Accounts take each with its weight.
+// The step's first evaluation has been made; three more follow (I7). Accounts take each with its weight.
 Motion Simulation::Impl::moveByStages() {
   const double dt = model.timeStep;
   const std::vector<Accounts> atStart = last;

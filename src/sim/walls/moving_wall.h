@@ -5,7 +5,7 @@
 //
 // s is the way along the unit axis a, Σ F what grains do to the wall; a guide holds the wall against everything else and does no work. A
 // piston or a falling plate has a mass and weight; a wall held at a constant force has a force and a damping, and no weight: at rest
-// the grains carry exactly that force. The integrators are those of grains (I1, I2, I5–I7); loads are summed over the slabs in their order.
+// the grains carry exactly that force. The integrators are those of grains (I1, I2, I4–I6); loads are summed over the slabs in their order.
 
 #include <vector>
 
