@@ -73,10 +73,12 @@ Drift driftOf(Integrator integrator, bool held, double contactTimes, double W) {
 
 int main(int argc, char** argv) {
   const double contactTimes = argc > 1 ? std::atof(argv[1]) : 1e6, W = argc > 2 ? std::atof(argv[2]) : 0.1;
-  fmt::print("{:g} contact times, ω Δt = {:g}\n{:<20} {:>24} {:>24}\n", contactTimes, W, "", "held: largest, last", "bouncing: largest, last");
-  for (const auto integrator : {Integrator::explicitEuler, Integrator::symplecticEuler, Integrator::leapfrog, Integrator::centralDifferences,
-                                Integrator::velocityVerlet, Integrator::rungeKutta}) {
+  fmt::print("{:g} contact times, ω Δt = {:g}\n{:<20} {:>24} {:>24}\n", contactTimes, W, "", "held: largest, last",
+             "bouncing: largest, last");
+  for (const auto integrator : {Integrator::explicitEuler, Integrator::symplecticEuler, Integrator::leapfrog,
+                                Integrator::centralDifferences, Integrator::velocityVerlet, Integrator::rungeKutta}) {
     const Drift held = driftOf(integrator, true, contactTimes, W), bouncing = driftOf(integrator, false, contactTimes, W);
-    fmt::print("{:<20} {:>12.1e}, {:>10.1e} {:>12.1e}, {:>10.1e}\n", schemeOf(integrator).name, held.largest, held.last, bouncing.largest, bouncing.last);
+    fmt::print("{:<20} {:>12.1e}, {:>10.1e} {:>12.1e}, {:>10.1e}\n", schemeOf(integrator).name, held.largest, held.last, bouncing.largest,
+               bouncing.last);
   }
 }

@@ -68,17 +68,23 @@ Motion integrateRange(State& state, std::int32_t first, std::int32_t last, V3 gr
 
 template <Integrator scheme>
 Motion integrateGrains(State& state, std::int32_t first, std::int32_t last, V3 gravity, double dt) {
-  return state.turns ? integrateRange<scheme, true>(state, first, last, gravity, dt) : integrateRange<scheme, false>(state, first, last, gravity, dt);
+  return state.turns ? integrateRange<scheme, true>(state, first, last, gravity, dt)
+                     : integrateRange<scheme, false>(state, first, last, gravity, dt);
 }
 
 Motion integrateBy(Integrator scheme, State& state, std::int32_t first, std::int32_t last, V3 gravity, double dt) {
   switch (scheme) {
-    case Integrator::velocityVerlet: return integrateGrains<Integrator::velocityVerlet>(state, first, last, gravity, dt);
-    case Integrator::explicitEuler: return integrateGrains<Integrator::explicitEuler>(state, first, last, gravity, dt);
-    case Integrator::leapfrog: return integrateGrains<Integrator::leapfrog>(state, first, last, gravity, dt);
-    case Integrator::centralDifferences: return integrateGrains<Integrator::centralDifferences>(state, first, last, gravity, dt);
+    case Integrator::velocityVerlet:
+      return integrateGrains<Integrator::velocityVerlet>(state, first, last, gravity, dt);
+    case Integrator::explicitEuler:
+      return integrateGrains<Integrator::explicitEuler>(state, first, last, gravity, dt);
+    case Integrator::leapfrog:
+      return integrateGrains<Integrator::leapfrog>(state, first, last, gravity, dt);
+    case Integrator::centralDifferences:
+      return integrateGrains<Integrator::centralDifferences>(state, first, last, gravity, dt);
     case Integrator::rungeKutta:  // not by single passes: runge_kutta.h
-    case Integrator::symplecticEuler: break;
+    case Integrator::symplecticEuler:
+      break;
   }
   return integrateGrains<Integrator::symplecticEuler>(state, first, last, gravity, dt);
 }

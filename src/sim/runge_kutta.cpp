@@ -83,8 +83,8 @@ void RungeKutta::collectMemory(int stage, MemoryStages& memory, std::size_t firs
   }
 }
 
-void RungeKutta::countSprings(double share, const double* memory, std::size_t stride, std::size_t pair, double effectiveRadius, double overlap,
-                              Springs& sum) const {
+void RungeKutta::countSprings(double share, const double* memory, std::size_t stride, std::size_t pair, double effectiveRadius,
+                              double overlap, Springs& sum) const {
   double all[mostMemory] = {}, tangential[mostMemory] = {};
   bool any = false;
   for (int c = 0; c < stateSize_; ++c) {
@@ -99,12 +99,14 @@ void RungeKutta::countSprings(double share, const double* memory, std::size_t st
   contact.effectiveMass = contact.inverseEffectiveMass = contact.inverseSpinInertia = 1;
   contact.effectiveRadius = effectiveRadius;
   const StepOf step{model_.timeStep, 0};
-  const double own = law_.stored(constants_.of(pair), contact, step, tangential), both = law_.stored(constants_.of(pair), contact, step, all);
+  const double own = law_.stored(constants_.of(pair), contact, step, tangential),
+               both = law_.stored(constants_.of(pair), contact, step, all);
   sum.tangential += share * own;
   sum.rolling += share * (both - own);
 }
 
-void RungeKutta::countPair(double share, const State& state, const SlabPairs& slab, std::size_t k, const double* memory, Springs& sum) const {
+void RungeKutta::countPair(double share, const State& state, const SlabPairs& slab, std::size_t k, const double* memory,
+                           Springs& sum) const {
   const auto i = static_cast<std::size_t>(slab.i[k]), j = static_cast<std::size_t>(slab.j[k]);
   const GrainRow &a = state.rows[i], &b = state.rows[j];
   countSprings(share, memory, slab.stride, state.material[i] * model_.materials.size() + state.material[j],
@@ -138,13 +140,51 @@ void RungeKutta::collectWalls(int stage, const State& state, const WallPass& wal
       const auto k = static_cast<std::size_t>(c);
       Frame frame = frameOf(state.rows[static_cast<std::size_t>(group.grain)], slab.candidates[k], walls.places()[group.wall]);
       const double b = weight[static_cast<std::size_t>(stage)];
-      const double* const in = stage == 0 ? wallsBefore_[slabNumber].candidates[k].memory : memory.in.data() + k * static_cast<std::size_t>(stateSize_);
+      const double* const in =
+          stage == 0 ? wallsBefore_[slabNumber].candidates[k].memory : memory.in.data() + k * static_cast<std::size_t>(stateSize_);
       countWall(stage == 0 ? 1 - b : -b, state, group, slab.candidates[k], in, memory.uncounted);
       countWall(b, state, group, slab.candidates[k], slab.candidates[k].memory, memory.uncounted);
       frame.touching = frame.touching && start.candidates[k].touching;  // one that begins within the step waits for the next
       collectMemory(stage, memory, k * static_cast<std::size_t>(stateSize_), 1, slab.candidates[k].memory, 1, frame, dt);
     }
   }
+}
+
+// What a slab starts the step with.
+void RungeKutta::startSlab(const State& state, std::int32_t first, std::int32_t last, std::size_t slab) {
+  MemoryStages &pairs = pairs_[slab], &walls = walls_[slab];
+  pairs.uncounted = walls.uncounted = {};
+  pairs.in = pairs.start;
+  pairs.rate.resize(pairs.start.size());
+  pairs.sum.assign(pairs.start.size(), 0.0);
+  walls.start.resize(wallsAtStart_[slab].candidates.size() * static_cast<std::size_t>(stateSize_));
+  noteBeginnings(slab);
+  walls.in = walls.start;
+  walls.rate.resize(walls.start.size());
+  walls.sum.assign(walls.start.size(), 0.0);
+  for (std::int32_t g = first; g < last; ++g) {
+    const auto k = static_cast<std::size_t>(g);
+    const GrainRow& row = state.rows[k];
+    grains_[k] = GrainStages{};
+    grains_[k].start = {row.position(), row.velocity(), row.surfaceSpin(), state.turns ? state.orientation[k] : Quat::Identity()};
+  }
+}
+
+void RungeKutta::collectGrain(int stage, State& state, std::size_t k, V3 gravity, double dt) {
+  const double b = weight[static_cast<std::size_t>(stage)];
+  const GrainRow& row = state.rows[k];
+  const Acceleration a = accelerationOf(row, state.forces[k], gravity);
+  state.forces[k] = ForceRow{};
+  Moving &rate = grains_[k].rate, &sum = grains_[k].sum;
+  if (state.turns) {
+    // q̇ = ½ ω q, at the orientation of this stage: where the last rate has led.
+    const Quat q(grains_[k].start.q.coeffs() + place[static_cast<std::size_t>(stage)] * dt * rate.q.coeffs());
+    const V3 w = row.inverseRadius * row.surfaceSpin();
+    rate.q.coeffs() = 0.5 * (Quat(0, w.x, w.y, w.z) * q).coeffs();
+    sum.q.coeffs() += b * rate.q.coeffs();
+  }
+  rate.x = row.velocity(), rate.v = a.linear, rate.s = state.turns ? a.surface : V3{0, 0, 0};
+  sum.x = sum.x + b * rate.x, sum.v = sum.v + b * rate.v, sum.s = sum.s + b * rate.s;
 }
 
 void RungeKutta::collect(int stage, State& state, const Slabs& slabs, const PairLists& pairs, const WallPass& walls, const Vec3& gravity,
@@ -156,48 +196,16 @@ void RungeKutta::collect(int stage, State& state, const Slabs& slabs, const Pair
     wallsAtStart_ = walls.slabs();
     wallWork_.assign(count, 0.0);
   }
-  const double b = weight[static_cast<std::size_t>(stage)];
   team.run(slabs.count(), [&](int slab, int) {
     const auto s = static_cast<std::size_t>(slab);
-    if (stage == 0) {
-      pairs_[s].uncounted = walls_[s].uncounted = {};
-      pairs_[s].in = pairs_[s].start;
-      pairs_[s].rate.resize(pairs_[s].start.size());
-      pairs_[s].sum.assign(pairs_[s].start.size(), 0.0);
-      const std::size_t size = walls.slabs()[s].candidates.size() * static_cast<std::size_t>(stateSize_);
-      walls_[s].start.resize(size);
-      walls_[s].rate.resize(size);
-      walls_[s].sum.assign(size, 0.0);
-      noteBeginnings(s);
-      walls_[s].in = walls_[s].start;
-    }
+    if (stage == 0) startSlab(state, slabs.begin(slab), slabs.end(slab), s);
     if (stateSize_ > 0) {
       collectPairs(stage, state, pairs.slabs()[s], pairs_[s], dt);
       collectWalls(stage, state, walls, s, dt);
     }
-    wallWork_[s] += b * walls.slabs()[s].lastWork;
-    for (std::int32_t g = slabs.begin(slab); g < slabs.end(slab); ++g) {
-      const auto k = static_cast<std::size_t>(g);
-      const GrainRow& row = state.rows[k];
-      GrainStages& grain = grains_[k];
-      const Acceleration a = accelerationOf(row, state.forces[k], v3(gravity));
-      state.forces[k] = ForceRow{};
-      if (stage == 0) {
-        grain = GrainStages{};
-        grain.start = {row.position(), row.velocity(), row.surfaceSpin(), state.turns ? state.orientation[k] : Quat::Identity()};
-      }
-      Moving& rate = grain.rate;
-      if (state.turns) {
-        // q̇ = ½ ω q, at the orientation of this stage: the start, or where the last rate has led.
-        const double c = place[static_cast<std::size_t>(stage)] * dt;
-        const Quat q(grain.start.q.coeffs() + c * rate.q.coeffs());
-        const V3 w = row.inverseRadius * row.surfaceSpin();
-        rate.q.coeffs() = 0.5 * (Quat(0, w.x, w.y, w.z) * q).coeffs();
-        grain.sum.q.coeffs() += b * rate.q.coeffs();
-      }
-      rate.x = row.velocity(), rate.v = a.linear, rate.s = state.turns ? a.surface : V3{0, 0, 0};
-      grain.sum.x = grain.sum.x + b * rate.x, grain.sum.v = grain.sum.v + b * rate.v, grain.sum.s = grain.sum.s + b * rate.s;
-    }
+    wallWork_[s] += weight[static_cast<std::size_t>(stage)] * walls.slabs()[s].lastWork;
+    for (std::int32_t g = slabs.begin(slab); g < slabs.end(slab); ++g)
+      collectGrain(stage, state, static_cast<std::size_t>(g), v3(gravity), dt);
   });
 }
 
@@ -234,7 +242,8 @@ Motion RungeKutta::finish(State& state, PairLists& pairs, WallPass& walls, doubl
     const auto advance = [&](const MemoryStages& memory, std::size_t k) { return memory.start[k] + dt * memory.sum[k]; };
     SlabPairs& listed = pairs.slabs()[s];
     for (std::size_t k = 0; k < listed.memory.size(); ++k) listed.memory[k] = advance(pairs_[s], k);
-    for (std::size_t k = 0; k < listed.i.size() && stateSize_ > 0; ++k) countPair(-1, state, listed, k, listed.memory.data() + k, pairs_[s].uncounted);
+    for (std::size_t k = 0; k < listed.i.size() && stateSize_ > 0; ++k)
+      countPair(-1, state, listed, k, listed.memory.data() + k, pairs_[s].uncounted);
     SlabWalls& slab = walls.slabs()[s];
     std::size_t k = 0;
     for (const WallGroup& group : slab.groups) {

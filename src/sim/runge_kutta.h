@@ -77,6 +77,8 @@ class RungeKutta {
                  Springs& sum) const;
   void collectWalls(int stage, const State& state, const WallPass& walls, std::size_t slabNumber, double dt);
   void noteBeginnings(std::size_t slabNumber);
+  void startSlab(const State& state, std::int32_t first, std::int32_t last, std::size_t slab);
+  void collectGrain(int stage, State& state, std::size_t k, V3 gravity, double dt);
 
   const Model& model_;
   const LawFunctions& law_;

@@ -141,7 +141,7 @@ void Simulation::Impl::computeForces(For whom) {
 
   accountsKnown = model.ledger || steps % watchEvery == 0;
   if (rungeKutta) rungeKutta->keepMemory(pairs, walls);
-  evaluateContacts();
+  evaluateContacts(whom);
   book(1);
   for (const auto& pass : passes) pass->addForces(world(time(), (rungeKutta ? RungeKutta::weight[0] : 1.0) * model.timeStep));
   loadMovingWalls();
@@ -153,7 +153,7 @@ void Simulation::Impl::computeForces(For whom) {
 }
 
 // Forces of all contacts, with what they put into the accounts (`last`).
-void Simulation::Impl::evaluateContacts() {
+void Simulation::Impl::evaluateContacts(For whom) {
   walls.settle();
   const auto onPairs = pairKernel(law, {classes.grains.alike, accountsKnown});
   const auto onWalls = wallKernel(law, {classes.walls.alike, accountsKnown});
@@ -241,7 +241,7 @@ Motion Simulation::Impl::moveByStages() {
     rungeKutta->moveTo(stage, state, slabs, pairs, walls, dt, team);
     if (gravity.changes()) gravity.moveTo(t, model.ledger ? momentOfMass() : Vec3(Vec3::Zero()));
     walls.moveTo(t, dt);
-    evaluateContacts();
+    evaluateContacts(For::step);
     book(RungeKutta::weight[k]);
     for (const auto& pass : passes) pass->addForces(world(t, RungeKutta::weight[k] * dt));
     rungeKutta->collect(stage, state, slabs, pairs, walls, gravity.now(), dt, team);

@@ -122,7 +122,7 @@ class Simulation::Impl {
   World world(double t, double share);
   void book(double share);
   StepOf stepOf() const;
-  void evaluateContacts();
+  void evaluateContacts(For whom);
   void move();
   Motion moveBySlabs();
   Motion moveByStages();

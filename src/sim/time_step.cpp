@@ -161,7 +161,8 @@ TimeStepChoice chooseTimeStep(const Model& model) {
     const double linear = std::max(damping[a].linear, damping[b].linear), rotary = std::max(damping[a].rotary, damping[b].rotary);
     return turning ? std::max(linear, rotary) : linear;
   };
-  const auto consider = [&](std::size_t a, std::size_t b, double inverseMasses, double effectiveRadius, double smallerRadius, const std::string& what) {
+  const auto consider = [&](std::size_t a, std::size_t b, double inverseMasses, double effectiveRadius, double smallerRadius,
+                            const std::string& what) {
     const auto modes = lawFunctions(law).modes(constants.of(a * n + b), expectedOverlap * smallerRadius, effectiveRadius, inverseMasses);
     for (std::size_t mode = 0; mode < modes.size(); ++mode) {
       const ContactMode packed = inPacking(modes[mode], rateOf(a, b, mode > 0));
@@ -181,21 +182,24 @@ TimeStepChoice chooseTimeStep(const Model& model) {
         consider(a, b, inverseMass(a) + inverseMass(b), 1 / (1 / radius[a] + 1 / radius[b]), std::min(radius[a], radius[b]),
                  fmt::format("{}, smallest grains", names));
       }
-      if (isWall[b]) consider(a, b, inverseMass(a) + inverseWallMass[b], radius[a], radius[a], fmt::format("{} walls, smallest grains", names));
+      if (isWall[b])
+        consider(a, b, inverseMass(a) + inverseWallMass[b], radius[a], radius[a], fmt::format("{} walls, smallest grains", names));
     }
     const double rate = std::max(damping[a].linear, damping[a].rotary);
     // Where drag alone allows hardly more than together with the stiffest contact, it is the drag that sets the step.
     if (const double limit = schemeOf(model.integrator).dragLimit / rate; rate > 0 && 0.9 * limit < choice.limit)
       choice = {std::min(limit, choice.limit),
-                fmt::format("{} of {}, smallest grains", damping[a].fluid ? "drag" : "damping", model.materials[a].name), {}};
+                fmt::format("{} of {}, smallest grains", damping[a].fluid ? "drag" : "damping", model.materials[a].name),
+                {}};
   }
   considerMagnets(model, choice);
   considerHeat(model, choice);
   if (!std::isfinite(choice.limit))
     throw Error(ErrorKind::scene, "There is nothing to derive a time step from: no grain meets a grain or a wall.", "give time_step");
   if (grows)
-    choice.warning = "Explicit Euler has no stable step for contacts that are hardly damped: their energy grows, by some per cent in each at the "
-                     "step that is taken for the limit.";
+    choice.warning =
+        "Explicit Euler has no stable step for contacts that are hardly damped: their energy grows, by some per cent in each at the "
+        "step that is taken for the limit.";
   return choice;
 }
 

@@ -178,7 +178,8 @@ TEST(Periodic, NeverMissesAContactWhileGrainsMove) {
 // Note (A.9): what one grain gives the other gets, also across the boundary. (Angular momentum about a point is not kept: the two
 // are not where the force acts.)
 TEST(Periodic, MomentumStaysToRounding) {
-  for (const Integrator integrator : {Integrator::symplecticEuler, Integrator::velocityVerlet, Integrator::centralDifferences, Integrator::rungeKutta}) {
+  for (const Integrator integrator :
+       {Integrator::symplecticEuler, Integrator::velocityVerlet, Integrator::centralDifferences, Integrator::rungeKutta}) {
     Simulation sim = gas(everyWay, integrator).start(2e-6);
     const Ledger before = sim.ledger();
     sim.advance(10000);
@@ -278,8 +279,10 @@ TEST(Periodic, BallRollsOnForEver) {
       s.model.periodic = {true, true, false};
     }
     s.grain(1e-5, 1e-3, {0, 0, 0.99e-3});
-    if (kind == 2) s.wall(Surface(test::rectangle(-0.02, 0.02, -0.02, 0.02, 0, 1, 1)));
-    else s.plane({0, 0, 0}, {0, 0, 1});
+    if (kind == 2)
+      s.wall(Surface(test::rectangle(-0.02, 0.02, -0.02, 0.02, 0, 1, 1)));
+    else
+      s.plane({0, 0, 0}, {0, 0, 1});
     Simulation sim = s.start(1e-5);
     sim.advance(40000);
     velocity[static_cast<std::size_t>(kind)] = look(sim).velocity[0];
@@ -351,7 +354,6 @@ TEST(Periodic, CountersCountOncePerPeriod) {
     }
   }
 }
-
 
 TEST(Periodic, DomainsTooShortOrEndlessAreRefused) {
   Scenario s;

@@ -88,8 +88,8 @@ TEST(Integrators, LedgerCloses) {
     for (const char* rolling : {"none", "elastic_plastic"}) {
       const double coarse = residualOfBox(integrator, rolling, 2e-6), fine = residualOfBox(integrator, rolling, 5e-7);
       const double order = std::log(coarse / fine) / std::log(4.0);
-      fmt::print("  ledger residual, {}, rolling {}: {:.2e} at 2 µs, {:.2e} at 0.5 µs, order {:.2f}\n", schemeOf(integrator).name, rolling, coarse,
-                 fine, order);
+      fmt::print("  ledger residual, {}, rolling {}: {:.2e} at 2 µs, {:.2e} at 0.5 µs, order {:.2f}\n", schemeOf(integrator).name, rolling,
+                 coarse, fine, order);
       const bool second = integrator == Integrator::velocityVerlet;
       EXPECT_GT(order, second ? 1.5 : 0.7);
       EXPECT_LT(fine, integrator == Integrator::explicitEuler ? 4e-2 : second ? 1e-4 : integrator == Integrator::rungeKutta ? 1e-5 : 1e-3);
@@ -99,7 +99,8 @@ TEST(Integrators, LedgerCloses) {
 
 // x_{n+1} = 2x_n − x_{n−1} + a Δt² is leapfrog without its velocities: the same path but for rounding.
 TEST(Integrators, CentralDifferencesGoTheWayOfLeapfrog) {
-  Simulation a = cloud(Integrator::leapfrog, "elastic_plastic").start(2e-6), b = cloud(Integrator::centralDifferences, "elastic_plastic").start(2e-6);
+  Simulation a = cloud(Integrator::leapfrog, "elastic_plastic").start(2e-6),
+             b = cloud(Integrator::centralDifferences, "elastic_plastic").start(2e-6);
   a.advance(800);
   b.advance(800);
   const Snapshot x = look(a), y = look(b);

@@ -86,7 +86,8 @@ void PairLists::placeRemembered(const State& state, const std::vector<std::int32
   remembered_.swap(sorted);
 }
 
-void PairLists::searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, FlatPairs& own, FlatPairs& before) const {
+void PairLists::searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, FlatPairs& own,
+                           FlatPairs& before) const {
   std::vector<std::int32_t> found;
   for (std::int32_t g = slabs.begin(slab); g < slabs.end(slab); ++g) {
     const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
@@ -181,7 +182,8 @@ void PairLists::foldImages(State& state, int slab) const {
 void PairLists::build(State& state, const Slabs& slabs, const CellGrid& grid, double innerSkin, const std::vector<std::int32_t>& newPlace,
                       ThreadTeam& team, const Periods& periods) {
   const int count = slabs.count();
-  std::vector<FlatPairs> own(static_cast<std::size_t>(count)), before(static_cast<std::size_t>(count) + 1), across(static_cast<std::size_t>(count));
+  std::vector<FlatPairs> own(static_cast<std::size_t>(count)), before(static_cast<std::size_t>(count) + 1),
+      across(static_cast<std::size_t>(count));
   slabs_.assign(static_cast<std::size_t>(count), SlabPairs{});
   team.run(count, [&](int slab, int) {
     const auto s = static_cast<std::size_t>(slab);
