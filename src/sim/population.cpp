@@ -157,7 +157,7 @@ void Simulation::Impl::removeGrains(const std::vector<char>& goes) {
 
 double Simulation::Impl::storedInPasses(const std::vector<char>& grains) {
   double energy = 0;
-  for (const auto& pass : passes) energy += pass->storedIn(world(), grains);
+  for (const auto& pass : passes) energy += pass->storedIn(world(time(), model.timeStep), grains);
   return energy;
 }
 

@@ -94,7 +94,7 @@ void considerHeat(const Model& model, TimeStepChoice& choice) {
   const auto meet = [&](std::uint16_t material, double radius) {
     const PropertyValues& values = model.materials[material].values;
     const double rate = warmingRate(values[Property::conductivity], values[Property::heatCapacity], massOf(values[Property::density], radius), radius);
-    if (rate * choice.limit > 1) choice = {1 / rate, fmt::format("heat conduction of {}, smallest grains", model.materials[material].name)};
+    if (rate * choice.limit > 1) choice = {1 / rate, fmt::format("heat conduction of {}, smallest grains", model.materials[material].name), {}};
   };
   for (const Grain& grain : model.grains) meet(grain.material, grain.radius);
   for (const Stream& stream : model.streams) meet(stream.material, stream.radii.smallest());
@@ -103,7 +103,7 @@ void considerHeat(const Model& model, TimeStepChoice& choice) {
 // Needles swing; S2 without a dashpot.
 void considerMagnets(const Model& model, TimeStepChoice& choice) {
   const double square = fastestMagnet(model);
-  if (square > 0 && 2 / std::sqrt(square) < choice.limit) choice = {2 / std::sqrt(square), "magnets that swing"};
+  if (square > 0 && 2 / std::sqrt(square) < choice.limit) choice = {2 / std::sqrt(square), "magnets that swing", {}};
 }
 
 }  // namespace
