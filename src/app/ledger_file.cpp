@@ -14,7 +14,8 @@ namespace {
 
 constexpr const char* columns =
     "time_s,grains,contacts,deepest_overlap,inserted,removed,lost,"
-    "kinetic_bulk_J,kinetic_fluctuation_J,kinetic_rotation_J,kinetic_walls_J,gravitational_J,elastic_normal_J,elastic_tangential_J,elastic_rolling_J,"
+    "kinetic_bulk_J,kinetic_fluctuation_J,kinetic_rotation_J,kinetic_walls_J,"
+    "gravitational_J,elastic_normal_J,elastic_tangential_J,elastic_rolling_J,"
     "elastic_bonds_J,potential_fields_J,"
     "dissipated_normal_J,dissipated_tangential_J,dissipated_friction_J,dissipated_rolling_J,dissipated_bonds_J,dissipated_breakage_J,"
     "dissipated_drag_J,work_walls_J,work_fields_J,inserted_J,removed_J,"
@@ -23,7 +24,8 @@ constexpr const char* columns =
     "angular_momentum_rest_x,angular_momentum_rest_y,angular_momentum_rest_z";
 
 std::string energies(const sim::Ledger& l) {
-  const double values[] = {l.kineticBulk, l.kineticFluctuation, l.kineticRotation, l.kineticWalls, l.gravitational, l.elasticNormal, l.elasticTangential,
+  const double values[] = {l.kineticBulk, l.kineticFluctuation, l.kineticRotation, l.kineticWalls,
+                           l.gravitational, l.elasticNormal, l.elasticTangential,
                            l.elasticRolling, l.elasticBonds, l.potentialFields, l.dissipatedNormal, l.dissipatedTangential,
                            l.dissipatedFriction, l.dissipatedRolling, l.dissipatedBonds, l.dissipatedBreakage, l.dissipatedDrag,
                            l.workWalls, l.workFields, l.inserted, l.removed, l.residual(), l.residualFraction(),
@@ -68,8 +70,10 @@ void LedgerFile::add(sim::Simulation& simulation, bool ledger) {
     row += fmt::format(",{},{:.6g}", counts.crossed[c], rate);
   }
   for (const sim::WallState& wall : simulation.movingWalls()) row += fmt::format(",{:.9g},{:.9g},{:.9g}", wall.way, wall.speed, wall.load);
-  if (heat_ && ledger) row += fmt::format(",{:.12g},{:.12g},{:.12g},{:.12g}", now.heat.stored, now.heat.fromWalls, now.heat.inserted, now.heat.removed);
-  if (heat_ && !ledger) row += ",,,,";
+  if (heat_) {
+    const sim::HeatLedger& heat = now.heat;
+    row += ledger ? fmt::format(",{:.12g},{:.12g},{:.12g},{:.12g}", heat.stored, heat.fromWalls, heat.inserted, heat.removed) : ",,,,";
+  }
   crossed_ = counts.crossed;
   lastTime_ = time;
   if (ledger && rows_ > 0) worst_ = std::max(worst_, now.residualFraction());

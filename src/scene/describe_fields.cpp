@@ -125,9 +125,9 @@ void describeSource(Form& form, FieldSource& source) {
 }
 
 void describeMagnets(Form& form, Magnets& magnets) {
-  form.quantityOrAuto({"cut_off", "Distance of centres from which on two grains do not feel each other; the last fifth of the way is smooth. "
-                                  "\"auto\": four diameters of the largest magnet."},
-                      magnets.cutOff, length, positive);
+  constexpr std::string_view cutOff = "Distance of centres from which on two grains do not feel each other; the last fifth of the way is "
+                                      "smooth. \"auto\": four diameters of the largest magnet.";
+  form.quantityOrAuto({"cut_off", cutOff}, magnets.cutOff, length, positive);
   form.table({"sources", "Magnets that are not grains."}, [&](Form& f) {
     f.others({"name", "A source."}, namedEntries(magnets.sources, describeSource));
   });

@@ -17,7 +17,9 @@ namespace {
 double harmonicMean(double a, double b) { return 2 * a * b / (a + b); }
 
 /// H1 and H2, W/K.
-double conductanceOf(double conductivity, double effectiveRadius, double overlap) { return 2 * conductivity * std::sqrt(effectiveRadius * overlap); }
+double conductanceOf(double conductivity, double effectiveRadius, double overlap) {
+  return 2 * conductivity * std::sqrt(effectiveRadius * overlap);
+}
 
 }  // namespace
 
@@ -71,8 +73,8 @@ void HeatPass::conductWalls(const World& world, int slabNumber) {
     wall.surface->contacts(world.walls.places()[group.wall].pose.toLocal({row.x, row.y, row.z}), row.radius, features, contacts);
     for (const WallContact& contact : contacts) {
       if (!(contact.distance < row.radius)) continue;
-      const double h = contact.weight * conductanceOf(harmonicMean(conductivity_[state.material[g]], conductivity_[wall.material]), row.radius,
-                                                      row.radius - contact.distance);
+      const double conductivity = harmonicMean(conductivity_[state.material[g]], conductivity_[wall.material]);
+      const double h = contact.weight * conductanceOf(conductivity, row.radius, row.radius - contact.distance);
       const double q = h * (*wall.temperature - state.temperature[g]);
       flow_[g] += q;
       conductance_[g] += h;
@@ -86,8 +88,8 @@ void HeatPass::check(const World& world, std::size_t g) const {
   if (!(rate * world.step.dt > 1)) return;
   const GrainRow& row = world.state.rows[g];
   throw Error(ErrorKind::simulation,
-              fmt::format("Heat flows too fast for the time step: grain {} at ({:.6g}, {:.6g}, {:.6g}) m would take {:.3g} of the difference in "
-                          "one step, t = {:.6g} s.",
+              fmt::format("Heat flows too fast for the time step: grain {} at ({:.6g}, {:.6g}, {:.6g}) m would take {:.3g} of the "
+                          "difference in one step, t = {:.6g} s.",
                           world.state.id[g], row.x, row.y, row.z, rate * world.step.dt, world.time),
               fmt::format("a step below {:.3g} s, less conductivity or more heat_capacity", 1 / rate));
 }
@@ -122,7 +124,8 @@ void HeatPass::addForces(const World& world) {
 }
 
 void HeatPass::account(const World& world, Ledger& ledger) const {
-  for (std::size_t g = 0; g < world.state.size(); ++g) ledger.heat.stored += heatCapacityOf(world.model, world.state, g) * world.state.temperature[g];
+  for (std::size_t g = 0; g < world.state.size(); ++g)
+    ledger.heat.stored += heatCapacityOf(world.model, world.state, g) * world.state.temperature[g];
   ledger.heat.fromWalls = heatFromWalls_ - lastFromWalls_;  // the present step's is still to come
 }
 

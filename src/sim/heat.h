@@ -7,8 +7,8 @@
 //
 // A grain has one temperature: right while its inside conducts better than its contacts, k*·a ≪ k·r, as it always does here. What one
 // grain gains the other loses, bit by bit, so that heat is kept to rounding. Heat does not act back on the motion, and what friction
-// dissipates does not warm. Source: Batchelor & O'Brien, Proc. R. Soc. A 355 (1977) 313; the same form in LIGGGHTS, where the square root of
-// the contact's area stands for the diameter a contact would have.
+// dissipates does not warm. Source: Batchelor & O'Brien, Proc. R. Soc. A 355 (1977) 313; the same form in LIGGGHTS, with the square root
+// of the area of two spheres cut through each other for the width of a contact.
 
 #include <vector>
 

@@ -93,7 +93,8 @@ void considerHeat(const Model& model, TimeStepChoice& choice) {
   if (!model.heat) return;
   const auto meet = [&](std::uint16_t material, double radius) {
     const PropertyValues& values = model.materials[material].values;
-    const double rate = warmingRate(values[Property::conductivity], values[Property::heatCapacity], massOf(values[Property::density], radius), radius);
+    const double mass = massOf(values[Property::density], radius);
+    const double rate = warmingRate(values[Property::conductivity], values[Property::heatCapacity], mass, radius);
     if (rate * choice.limit > 1) choice = {1 / rate, fmt::format("heat conduction of {}, smallest grains", model.materials[material].name), {}};
   };
   for (const Grain& grain : model.grains) meet(grain.material, grain.radius);

@@ -32,7 +32,9 @@ V3 between(const World& world, std::size_t i, std::size_t j) {
   return world.periods.any() ? v3(world.periods.nearest(vec3(d))) : d;
 }
 
-double magnetisationOf(const Model& model, std::uint16_t material) { return model.materials[material].values.valueOr(Property::magnetisation, 0); }
+double magnetisationOf(const Model& model, std::uint16_t material) {
+  return model.materials[material].values.valueOr(Property::magnetisation, 0);
+}
 
 }  // namespace
 

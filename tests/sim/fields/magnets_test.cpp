@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "verification/models.h"
 
 namespace tsubu::sim::test {
@@ -177,7 +178,7 @@ TEST(Magnets, NeedleSwingsInAField) {
   EXPECT_LT(look(sim).position[0].norm(), 1e-15);  // a uniform field does not pull
 }
 
-// Two magnets head to tail, swinging against each other: U = −κm²/d³ (2 cos²θ − sin²θ·(−1)…) gives I θ″ = −κm²/d³ θ; contact keeps them apart.
+// Two magnets head to tail, tilted by θ and −θ: U = −κm²/d³ (2 cos²θ + sin²θ) gives I θ″ = −κm²/d³ θ. The contact keeps them apart.
 TEST(Magnets, TwoNeedlesSwingAgainstEachOther) {
   const double r = 2e-3, m = 4e5 * volumeOf(r), inertia = 0.4 * density * volumeOf(r) * r * r, theta = 0.02;
   Magnetic s;
@@ -296,6 +297,24 @@ TEST(Magnets, LedgerClosesWithInletsAndSinks) {
   EXPECT_GT(sim.counts().removed, 3u);
   EXPECT_GT(sim.counts().inserted, 10u);
   EXPECT_LT(sim.ledger().residualFraction(), 2e-3);
+}
+
+// Across a periodic boundary magnets meet as they do inside; one that would meet itself is refused.
+TEST(Magnets, PullAcrossAPeriodicBoundary) {
+  const auto after = [](double shift, double cutOff) {
+    Magnetic s;
+    s.model.domain = Box(Vec3::Zero(), Vec3::Constant(0.04));
+    s.model.periodic = {true, true, false};
+    s.model.magnets->cutOff = cutOff;
+    for (int g = 0; g < 3; ++g) s.add(0, 1.5e-3, Vec3(0.012 + shift + 4e-3 * g, 0.02 + 1e-3 * g, 0.02), tilted(0.3 * g));
+    Simulation sim = s.start(1e-5);
+    sim.advance(200);
+    return look(sim).velocity;
+  };
+  const std::vector<Vec3> inside = after(0, 0.015), across = after(0.0225, 0.015);
+  EXPECT_GT(inside[0].norm(), 1e-3);
+  for (std::size_t g = 0; g < 3; ++g) EXPECT_LT((inside[g] - across[g]).norm(), 1e-9 * inside[g].norm());
+  EXPECT_THROW(after(0, 0.021), Error);
 }
 
 TEST(Magnets, AnyNumberOfThreadsTheSameBits) {
