@@ -68,6 +68,12 @@ ROLLER_FACETS = 72
 ROLLER_RADIUS = 0.008
 ROLLER_LENGTH = 0.010
 
+# --- block.obj and press.obj, both solid: what holds a beam at x = 0, and a round bar along y that presses on it
+BLOCK = ((-0.060, -0.050, -0.060), (0.0, 0.050, 0.060))
+PRESS_RADIUS = 0.020
+PRESS_LENGTH = 0.080
+PRESS_FACETS = 64
+
 
 def circle(radius, count):
     return [(radius * math.cos(2 * math.pi * k / count), radius * math.sin(2 * math.pi * k / count)) for k in range(count)]
@@ -241,6 +247,11 @@ def tracks():
 # --- writers ---------------------------------------------------------------------------------------------------------------------------
 
 
+def press():
+    upright = prism(circle(PRESS_RADIUS, PRESS_FACETS), -PRESS_LENGTH / 2, PRESS_LENGTH / 2)
+    return [[(x, -z, y) for x, y, z in face] for face in upright]
+
+
 def triangles(faces):
     return [(face[0], face[k], face[k + 1]) for face in faces for k in range(1, len(face) - 1)]
 
@@ -369,6 +380,8 @@ def files():
         "table.gltf": gltf(table()),
         "silo.obj": obj(silo()),
         "tracks.obj": obj(tracks()),
+        "block.obj": obj(box(*BLOCK)),
+        "press.obj": obj(press()),
     }
 
 

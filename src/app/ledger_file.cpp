@@ -46,12 +46,14 @@ std::string noEnergies() {
 }  // namespace
 
 LedgerFile::LedgerFile(const std::filesystem::path& path, const LedgerColumns& asked)
-    : file_(std::fopen(path.c_str(), "w")), path_(path.string()), heat_(asked.heat), crossed_(asked.counters.size(), 0) {
+    : file_(std::fopen(path.c_str(), "w")), path_(path.string()), heat_(asked.heat), bonds_(asked.bonds),
+      crossed_(asked.counters.size(), 0) {
   if (!file_) throw Error(ErrorKind::files, fmt::format("Cannot write '{}': {}.", path_, std::strerror(errno)));
   std::string header = columns;
   for (const std::string& counter : asked.counters) header += fmt::format(",counted_{0},rate_{0}_per_s", counter);
   for (const std::string& wall : asked.movingWalls) header += fmt::format(",{0}_way_m,{0}_speed_m_per_s,{0}_load_N", wall);
   if (heat_) header += ",heat_J,heat_from_walls_J,heat_inserted_J,heat_removed_J";
+  if (bonds_) header += ",bonds,broken";
   fmt::print(file_, "{}\n", header);
 }
 
@@ -74,6 +76,7 @@ void LedgerFile::add(sim::Simulation& simulation, bool ledger) {
     const sim::HeatLedger& heat = now.heat;
     row += ledger ? fmt::format(",{:.12g},{:.12g},{:.12g},{:.12g}", heat.stored, heat.fromWalls, heat.inserted, heat.removed) : ",,,,";
   }
+  if (bonds_) row += fmt::format(",{},{}", counts.bonds, counts.broken);
   crossed_ = counts.crossed;
   lastTime_ = time;
   if (ledger && rows_ > 0) worst_ = std::max(worst_, now.residualFraction());

@@ -15,6 +15,7 @@ struct LedgerColumns {
   std::vector<std::string> counters;     ///< names of the planes that count, two columns each
   std::vector<std::string> movingWalls;  ///< of the walls that move under load, three each
   bool heat = false;                     ///< four
+  bool bonds = false;                    ///< two
 };
 
 class LedgerFile {
@@ -33,7 +34,7 @@ class LedgerFile {
  private:
   std::FILE* file_;
   std::string path_;
-  bool heat_;
+  bool heat_, bonds_;
   std::vector<std::int64_t> crossed_;
   double lastTime_ = 0;
   std::size_t rows_ = 0;

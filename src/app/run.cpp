@@ -92,6 +92,7 @@ Run::Run(const RunOptions& options) : options_(options) {
     walls.push_back(wall.name);
     if (wall.body) columns.movingWalls.push_back(wall.name);
   }
+  columns.bonds = report_.bonds = !built.model.bonds.empty();
   ledger_ = std::make_unique<LedgerFile>(folder_ / "ledger.csv", columns);
   if (scene.diagnostics) diagnostics_ = std::make_unique<DiagnosticsFiles>(folder_, *scene.diagnostics, std::move(walls));
   simulation_ = std::make_unique<sim::Simulation>(std::move(built.model), report_.threads);

@@ -32,6 +32,10 @@ void writeReport(const std::filesystem::path& path, const RunReport& r) {
   json["inserted"] = r.counts.inserted;
   json["removed"] = r.counts.removed;
   json["lost"] = r.counts.lost;
+  if (r.bonds) {
+    json["bonds"] = r.counts.bonds;
+    json["broken"] = r.counts.broken;
+  }
   json["counted"] = nlohmann::ordered_json::object();
   for (std::size_t c = 0; c < r.counters.size(); ++c) json["counted"][r.counters[c]] = r.counts.crossed[c];
   if (r.ledger) {

@@ -26,6 +26,7 @@ struct RunReport {
   std::size_t grains = 0;
   sim::Counts counts;
   std::vector<std::string> counters;
+  bool bonds = false;        ///< are there any in the scene?
   std::vector<sim::LostGrain> lostGrains;
   bool ledger = true;
   double energyResidual = 0;       ///< at the end, as a fraction of the energy turned over

@@ -10,6 +10,14 @@
 
 namespace tsubu {
 
+/// A bond between two grains, or between a grain and a wall.
+struct SeenBond {
+  Vec3 first, second;      ///< m: its ends (of a broken one: when it broke)
+  double radius = 0;       ///< m
+  double load = 0;         ///< stress over strength; 0 when it cannot break
+  double sinceBroken = -1; ///< s; negative: it holds
+};
+
 struct Snapshot {
   double time = 0;         ///< s
   std::uint64_t step = 0;  ///< steps taken so far
@@ -23,6 +31,8 @@ struct Snapshot {
   std::vector<Quat> orientation;         ///< empty when rotation is not modelled
   std::vector<double> temperature;       ///< K; empty when heat is not modelled
   std::vector<double> load;              ///< N: sum of the normal contact forces on the grain; empty unless asked for
+
+  std::vector<SeenBond> bonds;           ///< empty unless asked for
 
   std::vector<Pose> walls;               ///< one per visible wall, in the order of the scene
 

@@ -40,16 +40,25 @@ struct Frame {
 };
 
 /// `side`: samples along the side of a pixel; `shadowSize`: texels along the side of the shadow map.
-Frame makeFrame(const Snapshot& snapshot, const Style& style, const std::vector<Wall>& walls, const Box& bounds, int side, int shadowSize);
+/// `bondLook`: number of the first look of bonds (looksOfBonds), when bonds are shown.
+Frame makeFrame(const Snapshot& snapshot, const Style& style, const std::vector<Wall>& walls, const Box& bounds, int side, int shadowSize,
+                int bondLook = 0);
 
 // The parts of makeFrame, each in a file of its own.
 
 /// Fills walls, sheets and sunWalls.
 void addWalls(Frame& frame, const std::vector<Wall>& walls, const std::vector<Pose>& poses, const Style& style, int side);
 
+/// Adds the bonds to walls and sunWalls, and their legend when there is no other.
+void addBonds(Frame& frame, const std::vector<SeenBond>& bonds, const Style& style, int firstLook, int side);
+
+/// Bonds have looks as walls do: so many from unloaded to breaking, and one for the broken.
+inline constexpr int bondLooks = 64;
+std::vector<WallLook> looksOfBonds(const Bonds& style);
+
 /// Fills neighbours and surroundings and writes their places into the records of the grains.
 void addOcclusion(Frame& frame, const std::vector<SeenGrain>& seen, const std::vector<std::uint32_t>& drawable, const Snapshot& snapshot,
-                  const std::vector<Wall>& walls);
+                  const std::vector<Wall>& walls, bool bonds);
 
 /// Where wall number `k` is: at the origin when the snapshot does not say.
 Pose poseOf(const std::vector<Pose>& poses, std::size_t k);

@@ -35,7 +35,9 @@ void fade(Occluder& o, double radius) {
 
 class Occlusion {
  public:
-  Occlusion(Frame& frame, const Snapshot& snapshot, const std::vector<Wall>& walls) : frame_(frame), snapshot_(snapshot) {
+  /// `bonds`: are there any among the walls, which every grain may darken?
+  Occlusion(Frame& frame, const Snapshot& snapshot, const std::vector<Wall>& walls, bool bonds)
+      : frame_(frame), snapshot_(snapshot), bonds_(bonds) {
     for (std::size_t k = 0; k < walls.size(); ++k) {
       if (walls[k].look.style == WallStyle::opaque) walls_.push_back({&walls[k], poseOf(snapshot.walls, k)});
     }
@@ -83,7 +85,7 @@ class Occlusion {
     }
     frame_.grains[record * 20 + 12] = static_cast<float>(first);
     frame_.grains[record * 20 + 13] = static_cast<float>(around.size());
-    if (!walls.empty()) addSurroundings(grain);
+    if (!walls.empty() || bonds_) addSurroundings(grain);
   }
 
  private:
@@ -112,6 +114,7 @@ class Occlusion {
 
   Frame& frame_;
   const Snapshot& snapshot_;
+  bool bonds_;
   std::vector<PlacedWall> walls_;
   std::vector<Vec3> points_, nearest_;
 };
@@ -119,7 +122,7 @@ class Occlusion {
 }  // namespace
 
 void addOcclusion(Frame& frame, const std::vector<SeenGrain>& seen, const std::vector<std::uint32_t>& drawable, const Snapshot& snapshot,
-                  const std::vector<Wall>& walls) {
+                  const std::vector<Wall>& walls, bool bonds) {
   std::vector<Vec3> centres;
   std::vector<double> radii;
   std::vector<std::uint32_t> place(snapshot.grains());
@@ -129,7 +132,7 @@ void addOcclusion(Frame& frame, const std::vector<SeenGrain>& seen, const std::v
     radii.push_back(snapshot.radius[k]);
   }
   const NeighbourGrid grid(centres, radii);
-  Occlusion occlusion(frame, snapshot, walls);
+  Occlusion occlusion(frame, snapshot, walls, bonds);
   std::vector<Occluder> around;
   for (std::size_t record = 0; record < seen.size(); ++record) {
     const std::uint32_t k = seen[record].index;

@@ -17,11 +17,13 @@ void require(bool present, std::string_view what, std::string_view why) {
               "choose another colouring");
 }
 
-std::vector<double> valuesOf(ColourBy by, const Snapshot& snapshot) {
+std::vector<double> valuesOf(const Grains& style, const Snapshot& snapshot) {
+  const ColourBy by = style.by;
   const std::size_t n = snapshot.grains();
   std::vector<double> values(n);
   if (by == ColourBy::radius) {
     values = snapshot.radius;
+    for (double& radius : values) radius /= style.scale;  // what is drawn may be smaller
   } else if (by == ColourBy::speed) {
     require(snapshot.velocity.size() == n, "speed", "the snapshot has no velocities");
     for (std::size_t k = 0; k < n; ++k) values[k] = snapshot.velocity[k].norm();
@@ -94,7 +96,7 @@ GrainColours grainColours(const Grains& style, const Snapshot& snapshot) {
     }
     return result;
   }
-  const std::vector<double> values = valuesOf(style.by, snapshot);
+  const std::vector<double> values = valuesOf(style, snapshot);
   result.legend = legendOf(style, values);
   const auto [low, high] = result.legend->range;
   for (std::size_t k = 0; k < n; ++k) result.colours[k] = mapped(style.map, (values[k] - low) / (high - low));

@@ -62,7 +62,7 @@ void drawLegend(Image& image, const Legend& legend, const Pen& pen, const Layout
   for (int k = 0; k < bar.width; ++k) fill(image, bar.x + k, bar.y, 1, bar.height, mapped(legend.map, (k + 0.5) / bar.width));
 
   const double above = bar.y - 0.8 * layout.text;
-  const std::string name = fmt::format("{} [{}]", legend.quantity, legend.unit);
+  const std::string name = legend.unit.empty() ? legend.quantity : fmt::format("{} [{}]", legend.quantity, legend.unit);
   write(image, pen, name, bar.x, above, layout.text);
   if (!legend.fixed) {
     const std::string_view warning = "range of this frame";

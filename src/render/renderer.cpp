@@ -13,6 +13,17 @@
 
 namespace tsubu::render {
 
+namespace {
+
+/// The snapshot with grains as they are drawn.
+Snapshot shownOf(const Snapshot& snapshot, const Grains& style) {
+  Snapshot shown = snapshot;
+  for (double& radius : shown.radius) radius *= style.shown ? style.scale : 0;  // what has no radius is not drawn
+  return shown;
+}
+
+}  // namespace
+
 class Renderer::Impl {
  public:
   Impl(Style style, std::vector<VisibleWall> walls, const Box& bounds) : style_(std::move(style)), bounds_(bounds) {
@@ -23,6 +34,9 @@ class Renderer::Impl {
       if (isNew) looks_.push_back(wall.look);
       walls_.push_back({WallModel(wall.mesh), wall.look, at->second});
     }
+    bondLook_ = static_cast<int>(looks_.size());
+    if (style_.bonds.shown)
+      for (const WallLook& look : looksOfBonds(style_.bonds)) looks_.push_back(look);
     if (looks_.size() > Painter::mostLooks) {
       throw Error(ErrorKind::scene, "The walls have more different colours than the renderer can tell apart (2048).");
     }
@@ -30,7 +44,9 @@ class Renderer::Impl {
   }
 
   Image draw(const Snapshot& snapshot) {
-    const Frame frame = makeFrame(snapshot, style_, walls_, bounds_, painter_->side(), painter_->shadowSize());
+    const bool asIs = style_.grains.shown && style_.grains.scale == 1;
+    const Frame frame = makeFrame(asIs ? snapshot : shownOf(snapshot, style_.grains), style_, walls_, bounds_, painter_->side(),
+                                  painter_->shadowSize(), bondLook_);
     Image image = painter_->paint(frame, upOf(style_.camera, snapshot.time));
     drawOverlay(image, style_, snapshot.time, frame.legend);
     return image;
@@ -44,6 +60,7 @@ class Renderer::Impl {
   Box bounds_;
   std::vector<Wall> walls_;
   std::vector<WallLook> looks_;
+  int bondLook_ = 0;
   std::unique_ptr<Painter> painter_;
 };
 

@@ -155,7 +155,21 @@ enum class Pattern { none, twoTone, stripes };
 inline constexpr std::array<Word<Pattern>, 3> patternWords{
     {{"none", Pattern::none}, {"two_tone", Pattern::twoTone}, {"stripes", Pattern::stripes}}};
 
+/// What bonds look like, when they are drawn: cylinders coloured by their load, the stress over the strength.
+struct Bonds {
+  bool shown = false;
+  ColourMap map = ColourMap::batlow;
+  std::optional<Range> range;  ///< of the load; without it 0 to 1
+  double scale = 1;            ///< drawn radius over the radius
+  Colour broken{0xe6, 0x39, 0x46};
+  double brokenFor = 0;        ///< s of the simulation: how long a broken bond leaves a mark
+
+  bool operator==(const Bonds&) const = default;
+};
+
 struct Grains {
+  bool shown = true;
+  double scale = 1;  ///< drawn radius over the radius
   ColourBy by = ColourBy::material;
   ColourMap map = ColourMap::viridis;
   std::optional<Range> range;     ///< SI units; without it each frame has its own, and the legend says so
@@ -204,6 +218,7 @@ struct Style {
   Light light;
   Camera camera;
   Grains grains;
+  Bonds bonds;
   Overlay overlay;
 
   bool operator==(const Style&) const = default;

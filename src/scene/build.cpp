@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "render/colour_map.h"
+#include "scene/build_bonds.h"
 #include "scene/pairs.h"
 #include "scene/place_grains.h"
 #include "scene/wall_pictures.h"
@@ -67,6 +68,8 @@ void buildGrains(const Scene& scene, sim::Model& model) {
     if (const auto* inlet = std::get_if<Inlet>(&source.from)) model.streams.push_back(buildStream(scene, source, *inlet));
   }
   refuseOverlaps(scene, model.grains, first);
+  first.push_back(model.grains.size());
+  model.bonds = buildBonds(scene, first);
 }
 
 sim::WallMotion motionOf(const Wall& wall) {
@@ -132,6 +135,9 @@ void buildWalls(const Scene& scene, Built& built) {
   }
 }
 
+// s of simulated time for which a broken bond is shown.
+double brokenFor(const Scene& scene) { return scene.show.brokenFor.value_or(1.0 / 3 / slowMotion(scene.output)); }
+
 sim::Model buildModel(const Scene& scene) {
   const Simulation& s = scene.simulation;
   sim::Model model;
@@ -148,6 +154,7 @@ sim::Model buildModel(const Scene& scene) {
   model.periodic = s.periodic;
   model.skin = s.skin.value_or(0);
   model.ledger = s.ledger;
+  if (!scene.bonds.empty() && scene.show.bonds) model.showBonds = brokenFor(scene);
   model.load = scene.colours.by == render::ColourBy::force;
   model.contactForces = scene.diagnostics.has_value();
   model.watch = {s.overlapLimit, s.travelLimit, s.onViolation == OnViolation::stop};
@@ -189,6 +196,13 @@ render::Style buildStyle(const Scene& scene) {
   style.light = scene.light;
   style.camera = scene.camera;
   style.grains = scene.colours;
+  style.grains.shown = scene.show.grains;
+  style.grains.scale = scene.show.grainScale;
+  style.bonds.shown = !scene.bonds.empty() && scene.show.bonds;
+  style.bonds.map = scene.show.bondMap;
+  style.bonds.range = scene.show.bondRange;
+  style.bonds.scale = scene.show.bondScale;
+  style.bonds.brokenFor = brokenFor(scene);
   std::size_t given = 0;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     if (scene.materials[i].colour) given = i + 1;

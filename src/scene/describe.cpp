@@ -167,6 +167,7 @@ void describe(Form& form, Scene& scene) {
   });
   describeGrains(form, scene);
   describeWalls(form, scene);
+  describeBonds(form, scene);
   describeFields(form, scene);
   form.table({"output", "When frames and rows of the ledger are written."}, [&](Form& f) { describeOutput(f, scene.output); });
   describeDiagnostics(form, scene);

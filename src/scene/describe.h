@@ -12,6 +12,7 @@ void describe(Form& form, Scene& scene);
 // Its parts, one file each.
 void describeGrains(Form& form, Scene& scene);
 void describeWalls(Form& form, Scene& scene);
+void describeBonds(Form& form, Scene& scene);
 void describeFields(Form& form, Scene& scene);
 void describeDiagnostics(Form& form, Scene& scene);
 void describePicture(Form& form, Scene& scene);

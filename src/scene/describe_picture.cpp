@@ -92,6 +92,18 @@ void describeColours(Form& form, render::Grains& grains) {
   words(form, {"pattern", "What is painted on the grains, so that one sees them turn."}, grains.pattern, render::patternWords);
 }
 
+void describeShow(Form& form, Show& show) {
+  form.boolean({"grains", "Draw the grains."}, show.grains);
+  form.boolean({"bonds", "Draw the bonds, where there are any: cylinders, coloured by stress over strength."}, show.bonds);
+  form.quantity({"grain_scale", "Drawn radius of grains over their radius: small ones show the bonds between them."}, show.grainScale, number,
+                {0.01, 1, true, false});
+  form.quantity({"bond_scale", "Drawn radius of bonds over their radius."}, show.bondScale, number, {0.01, 2, true, false});
+  words(form, {"bond_map", "The colours of bonds from unloaded to breaking."}, show.bondMap, render::colourMapWords);
+  form.rangeOrAuto({"bond_range", "[low, high] of stress over strength. \"auto\": 0 to 1."}, show.bondRange, number);
+  form.quantityOrAuto({"broken_for", "Simulated time for which a broken bond leaves a mark that shrinks. \"auto\": a third of a second of film."},
+                      show.brokenFor, time, notNegative);
+}
+
 void describeLight(Form& form, render::Light& light) {
   form.vector({"from", "Towards the sun; any length."}, light.from, number, VectorRule::notZero);
   form.quantity({"sun", "Strength of the sun."}, light.sun, number, between(0, 4));
@@ -124,6 +136,7 @@ void describePicture(Form& form, Scene& scene) {
     byWord(f, {"view", "How the camera is placed."}, scene.camera, views, DescribeCamera{f});
   });
   form.table({"colours", "The colours of the grains."}, [&](Form& f) { describeColours(f, scene.colours); });
+  form.table({"show", "What of grains and bonds is drawn."}, [&](Form& f) { describeShow(f, scene.show); });
   form.table({"light", "A sun and a sky."}, [&](Form& f) { describeLight(f, scene.light); });
   form.table({"overlay", "What is written on the frames."}, [&](Form& f) { describeOverlay(f, scene.overlay); });
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "render/style.h"
+#include "scene/bonds.h"
 #include "sim/insertion/region.h"
 #include "sim/insertion/size_distribution.h"
 #include "sim/model.h"
@@ -276,6 +277,17 @@ struct Diagnostics {
   bool operator==(const Diagnostics&) const = default;
 };
 
+/// What of grains and bonds is drawn.
+struct Show {
+  bool grains = true, bonds = true;
+  double grainScale = 1, bondScale = 1;
+  render::ColourMap bondMap = render::ColourMap::batlow;
+  std::optional<render::Range> bondRange;
+  std::optional<double> brokenFor;  ///< s; absent: a third of a second of film
+
+  bool operator==(const Show&) const = default;
+};
+
 struct Overlay {
   bool time = true, legend = true, title = true;
   int timeDecimals = 2;
@@ -293,6 +305,7 @@ struct Scene {
   std::vector<Wall> walls;
   std::vector<Sink> sinks;
   std::vector<Counter> counters;
+  std::vector<Bonds> bonds;
   sim::Fields fields;
   std::optional<Heat> heat;
   std::optional<Magnets> magnets;
@@ -303,6 +316,7 @@ struct Scene {
   render::Light light;
   render::Camera camera;
   render::Grains colours;  ///< `materials` stays empty: each material has its own
+  Show show;
   Overlay overlay;
   std::string folder;  ///< of the scene file: what paths are relative to
 

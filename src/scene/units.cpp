@@ -89,6 +89,7 @@ constexpr NamedDimension named[] = {
     {dimension::massRate, "a mass per time", "\"0.2 kg/s\"", "kg/s"},
     {dimension::density, "a density", "\"2.5 g/cm^3\"", "kg/m^3"},
     {dimension::stiffness, "a stiffness", "\"10 kN/m\"", "N/m"},
+    {{{-2, 1, -2, 0}}, "a stiffness per area", "\"1e9 N/m^3\"", "N/m^3"},
     {dimension::force, "a force", "\"3 N\"", "N"},
     {dimension::pressure, "a pressure", "\"1 GPa\"", "Pa"},
     {{{-1, 0, 1, 0}}, "a time per length", "\"0.2 s/m\"", "s/m"},

@@ -46,7 +46,7 @@ struct Ledger {
   double dissipatedTangential = 0;  ///< by tangential dashpots
   double dissipatedFriction = 0;    ///< by sliding, and springs that were let go at the end of a contact
   double dissipatedRolling = 0;     ///< by rolling resistance
-  double dissipatedBonds = 0;       ///< by the damping of bonds
+  double dissipatedBonds = 0;       ///< by the damping of bonds, with what contacts held that a bond replaced
   double dissipatedBreakage = 0;    ///< what bonds held when they broke
   double dissipatedDrag = 0;        ///< by drag and global damping
 

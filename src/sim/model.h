@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "sim/bonds/bonding.h"
 #include "sim/fields/fields.h"
 #include "sim/fields/magnets.h"
 #include "sim/insertion/stream.h"
@@ -96,11 +97,13 @@ struct Model {
   std::vector<Wall> walls;
   std::vector<Sink> sinks;
   std::vector<Counter> counters;
+  std::vector<Bonding> bonds;            ///< a pair is bonded once: by the first that claims it
   Box domain;                            ///< grains whose centre leaves it are lost; empty: a box around all that is there, with a wide margin
   std::array<bool, 3> periodic{};        ///< directions in which the domain repeats itself; it must be finite there (periodic.h)
   double timeStep = 0;                   ///< s; chosen by chooseTimeStep(), or by the user
   double skin = 0;                       ///< m, reach of the outer neighbour list beyond contact; 0: chosen from the radii
   bool ledger = true;                    ///< keep the energy ledger
+  std::optional<double> showBonds;       ///< snapshots carry the bonds, and broken ones for so long (s); absent: no bonds
   bool load = false;                     ///< snapshots carry the sum of contact forces on each grain
   bool contactForces = false;            ///< an Instant may be asked for: contact forces are noted when somebody looks
   Watch watch;
@@ -117,7 +120,7 @@ struct TimeStepChoice {
   std::string warning;  ///< empty, or why no step would be stable
 };
 
-/// \brief The stability limit from the model alone (docs/physics.md, S1–S3). Throws Error when there is nothing to derive it from.
+/// \brief The stability limit from the model alone (docs/physics.md, S1–S5). Throws Error when there is nothing to derive it from.
 TimeStepChoice chooseTimeStep(const Model& model);
 
 }  // namespace tsubu::sim

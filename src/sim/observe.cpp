@@ -117,7 +117,7 @@ Simulation::Impl::DeepestContact Simulation::Impl::surveyContacts() const {
     for (std::size_t k = 0; k < slab.i.size(); ++k) {
       const auto i = static_cast<std::size_t>(slab.i[k]), j = static_cast<std::size_t>(slab.j[k]);
       const GrainRow &a = state.rows[i], &b = state.rows[j];
-      const double overlap = a.radius + b.radius - (positionOf(a) - positionOf(b)).norm();
+      const double overlap = slab.touchOf(k, a.radius + b.radius) - (positionOf(a) - positionOf(b)).norm();
       const auto partner = static_cast<std::size_t>(slab.grainOf(slab.j[k]));
       if (overlap > 0) meet(overlap / std::min(a.radius, b.radius), i, [&] { return fmt::format("grain {}", state.id[partner]); });
     }
@@ -177,7 +177,7 @@ void Simulation::Impl::visitContacts(Visit&& visit) const {
     for (std::size_t k = 0; k < slab.i.size(); ++k) {
       const auto i = static_cast<std::size_t>(slab.i[k]), j = static_cast<std::size_t>(slab.j[k]);
       const GrainRow &a = state.rows[i], &b = state.rows[j];
-      SeenContact seen{i, static_cast<std::size_t>(slab.grainOf(slab.j[k])), see(positionOf(a) - positionOf(b), a.radius + b.radius, Vec3(a.vx - b.vx, a.vy - b.vy, a.vz - b.vz),
+      SeenContact seen{i, static_cast<std::size_t>(slab.grainOf(slab.j[k])), see(positionOf(a) - positionOf(b), slab.touchOf(k, a.radius + b.radius), Vec3(a.vx - b.vx, a.vy - b.vy, a.vz - b.vz),
                                  1 / (a.inverseMass + b.inverseMass), 1 / (a.inverseRadius + b.inverseRadius)),
                        constants.of(state.material[i] * n + state.material[j]), 1, {}};
       if (!(seen.contact.overlap > 0)) continue;
@@ -206,6 +206,30 @@ void Simulation::Impl::visitContacts(Visit&& visit) const {
       }
     }
   }
+}
+
+double Simulation::Impl::contactEnergyOf(std::size_t i, std::size_t j) const {
+  const GrainRow &a = state.rows[i], &b = state.rows[j];
+  const Vec3 d = periods.nearest(positionOf(a) - positionOf(b));
+  Contact contact{};
+  contact.overlap = a.radius + b.radius - d.norm();
+  if (!(contact.overlap > 0)) return 0;
+  const Vec3 n = d.normalized();
+  contact.n = {n.x(), n.y(), n.z()};
+  contact.inverseEffectiveMass = a.inverseMass + b.inverseMass;
+  contact.effectiveMass = 1 / contact.inverseEffectiveMass;
+  contact.effectiveRadius = 1 / (a.inverseRadius + b.inverseRadius);
+  contact.inverseSpinInertia = 5 / (contact.effectiveMass * contact.effectiveRadius * contact.effectiveRadius);
+  double memory[mostMemory] = {};
+  std::size_t stride = 0;
+  const double* const kept = pairs.memoryOf(slabs, static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), stride);
+  for (std::size_t k = 0; kept && k < static_cast<std::size_t>(traits.stateSize); ++k) memory[k] = kept[k * stride];
+  const LawFunctions& functions = lawFunctions(law);
+  const double* const pair = constants.of(state.material[i] * model.materials.size() + state.material[j]);
+  const double springs = functions.stored(pair, contact, {model.timeStep, lead}, memory);
+  ContactEnergy now{};
+  functions.evaluate(pair, contact, {model.timeStep, lead}, memory, now);
+  return now.storedNormal + springs;
 }
 
 void Simulation::Impl::addLoads(std::vector<double>& load) const {
@@ -259,6 +283,7 @@ void Simulation::Impl::fill(Snapshot& snapshot) {
     if (model.load) snapshot.load.push_back(load[g]);
   }
   for (const WallPlace& place : walls.places()) snapshot.walls.push_back(place.pose);
+  for (const auto& pass : passes) pass->show(world(time(), model.timeStep), snapshot);
 }
 
 // Contacts in any order: the hash of each, keyed by its two ids and seen from the lower one, added up.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "sim/bonds/bond_pass.h"
 #include "sim/fields/drag.h"
 #include "sim/fields/magnet_pass.h"
 #include "sim/heat.h"
@@ -10,12 +11,13 @@
 
 namespace tsubu::sim {
 
-bool grainsTurn(const Model& model) { return lawFunctions(lawIndex(model.contact)).traits.turns || hasPermanentMagnets(model); }
+bool grainsTurn(const Model& model) { return lawFunctions(lawIndex(model.contact)).traits.turns || !model.bonds.empty() || hasPermanentMagnets(model); }
 
 std::vector<std::unique_ptr<ForcePass>> makePasses(const Model& model) {
   const bool turns = grainsTurn(model);
   const Fields& fields = model.fields;
   std::vector<std::unique_ptr<ForcePass>> passes;
+  if (!model.bonds.empty()) passes.push_back(std::make_unique<BondPass>(model));
   if (fields.drag) passes.push_back(std::make_unique<DragPass>(*fields.drag, turns, schemeOf(model.integrator).dragLimit));
   if (fields.damping) passes.push_back(std::make_unique<DampingPass>(*fields.damping, turns));
   if (model.magnets) passes.push_back(std::make_unique<MagnetPass>(model));

@@ -3,6 +3,7 @@
 // A pass keeps its own state by the ids of grains or in their order, adds to the force rows, and answers for its energy.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,8 +17,13 @@
 #include "sim/periodic.h"
 #include "sim/state.h"
 
+namespace tsubu {
+struct Snapshot;
+}
+
 namespace tsubu::sim {
 
+struct Counts;
 class WallPass;
 
 /// The running simulation as a pass sees it: positions and velocities of the present instant (docs/physics.md, I1, I2).
@@ -25,7 +31,7 @@ struct World {
   const Model& model;
   State& state;
   const Slabs& slabs;
-  const PairLists& pairs;
+  PairLists& pairs;
   const Periods& periods;  ///< differences of positions are `periods.nearest(x_i − x_j)`
   const WallPass& walls;
   ThreadTeam& team;
@@ -34,6 +40,7 @@ struct World {
   double time;   ///< s
   StepOf step;
   double share;  ///< s: the time that an evaluation stands for in accounts of energy: Δt, or less where a step has several
+  std::function<double(std::int32_t, std::int32_t)> contactEnergy;  ///< J: in the contact of two grains, by place
 };
 
 class ForcePass {
@@ -54,6 +61,10 @@ class ForcePass {
   virtual void account(const World&, Ledger&) const {}
   /// J: what goes when these grains (marked by their places) go, or has come with them.
   virtual double storedIn(const World&, const std::vector<char>& /*grains*/) const { return 0; }
+  /// Counts what it has made and lost.
+  virtual void count(Counts&) const {}
+  /// Adds what is to be seen of it.
+  virtual void show(const World&, Snapshot&) const {}
   /// Fingerprint of its own state, whatever the order of grains in memory.
   virtual std::uint64_t hash(const State&) const { return 0; }
 };

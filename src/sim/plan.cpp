@@ -26,6 +26,7 @@ Plan Simulation::plan(const Model& model) {
   item(rolls, rolls ? fmt::format("rolling resistance: {}", model.contact.rolling) : "rolling resistance");
   item(twists, twists ? fmt::format("twisting resistance: {}", model.contact.twisting) : "twisting resistance");
   item(grainsTurn(model), "rotation and orientation");
+  item(!model.bonds.empty(), "bonds");
   item(strongestGravity(model.gravity, model.fields.gravity) > 0, model.fields.gravity.empty() ? "gravity" : "gravity that changes");
   item(model.fields.drag.has_value(), "drag");
   item(model.magnets.has_value(), "magnets");

@@ -121,7 +121,8 @@ StepOf Simulation::Impl::stepOf() const {
 }
 
 World Simulation::Impl::world(double t, double share) {
-  return {model, state, slabs, pairs, periods, walls, team, gravity.now(), outerSkin, t, stepOf(), share};
+  return {model, state, slabs, pairs, periods, walls, team, gravity.now(), outerSkin, t, stepOf(), share,
+          [this](std::int32_t i, std::int32_t j) { return contactEnergyOf(static_cast<std::size_t>(i), static_cast<std::size_t>(j)); }};
 }
 
 void Simulation::Impl::step() {
@@ -143,7 +144,10 @@ void Simulation::Impl::computeForces(For whom) {
   if (rungeKutta) rungeKutta->keepMemory(pairs, walls);
   evaluateContacts(whom);
   book(1);
-  for (const auto& pass : passes) pass->addForces(world(time(), (rungeKutta ? RungeKutta::weight[0] : 1.0) * model.timeStep));
+  for (const auto& pass : passes) {
+    pass->addForces(world(time(), (rungeKutta ? RungeKutta::weight[0] : 1.0) * model.timeStep));
+    pass->count(counts);
+  }
   loadMovingWalls();
   wallTravel += wallStep;
   if (firstArrival < state.nextId) startHalfSteps(state, firstArrival, gravity.now(), model.timeStep);
@@ -168,7 +172,8 @@ void Simulation::Impl::evaluateContacts(For whom) {
       SlabPairs& list = pairs.slabs()[s];
       Stage& stage = stages[static_cast<std::size_t>(thread)];
       PairLists::refreshImages(state, list);
-      const PairRange range{list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.data(), list.stride};
+      const PairRange range{list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.data(), list.stride,
+                            list.touch.empty() ? nullptr : list.touch.data()};
       if (noting)
         passNoting(onPairs.kernel, grainsWorld, range, traits.rolls, stage, last[s], acting[s]);
       else

@@ -18,6 +18,8 @@ struct Counts {
   std::uint64_t removed = 0;
   std::uint64_t lost = 0;
   std::vector<std::int64_t> crossed;  ///< per counter
+  std::uint64_t bonds = 0;   ///< that hold
+  std::uint64_t broken = 0;  ///< that have broken so far
 };
 
 struct LostGrain {

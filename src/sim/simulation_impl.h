@@ -111,7 +111,7 @@ class Simulation::Impl {
 
   /// Lists that hold for a step must hold at all its stages.
   double stageTravel() const { return rungeKutta ? fastest * model.timeStep : 0; }
-  bool listsAreDue() const { return rebuildNeeded || 2 * wallTravel > outerSkin || 2 * (innerTravel + stageTravel()) > innerSkin; }
+  bool listsAreDue() const { return rebuildNeeded || pairs.stale() || 2 * wallTravel > outerSkin || 2 * (innerTravel + stageTravel()) > innerSkin; }
   void chooseSkins();
   void refreshLists();
   void wrapGrains();
@@ -156,6 +156,8 @@ class Simulation::Impl {
   /// J: in the springs of all contacts that one of the marked grains takes part in.
   double storedInPasses(const std::vector<char>& grains);
   double storedInContactsOf(const std::vector<char>& grains) const;
+  /// J: in the contact of two grains that touches at the sum of their radii.
+  double contactEnergyOf(std::size_t i, std::size_t j) const;
   void addLoads(std::vector<double>& load) const;
   std::uint64_t contactHash() const;
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "sim/bonds/bond_limit.h"
 #include "sim/fields/drag.h"
 #include "sim/fields/magnet_pass.h"
 #include "sim/heat.h"
@@ -107,6 +108,17 @@ void considerMagnets(const Model& model, TimeStepChoice& choice) {
   if (square > 0 && 2 / std::sqrt(square) < choice.limit) choice = {2 / std::sqrt(square), "magnets that swing", {}};
 }
 
+// S5. Contacts that act beside the bonds of the same pairs add their share; otherwise a neighbour is either bonded or touched.
+void considerBonds(const Model& model, TimeStepChoice& choice) {
+  const BondSwing swing = swingOfBonds(model);
+  if (!(swing.stiffness > 0)) return;
+  double limit = stableStep({swing.stiffness, swing.damping}, model.integrator == Integrator::velocityVerlet, true);
+  bool both = false;
+  for (const Bonding& bonding : model.bonds) both = both || bonding.contactBeyondRest;
+  if (both) limit = 1 / std::sqrt(1 / (limit * limit) + 1 / (choice.limit * choice.limit));
+  if (limit < choice.limit) choice = {limit, fmt::format("stiffness of the bonds '{}'", swing.of)};
+}
+
 }  // namespace
 
 // S2: a mode ω, ζ is stable up to Δt = 2(√(1 + s²ζ²) − sζ)/ω, where s = 1 for symplectic Euler, leapfrog and central differences, and 2
@@ -193,6 +205,7 @@ TimeStepChoice chooseTimeStep(const Model& model) {
                 fmt::format("{} of {}, smallest grains", damping[a].fluid ? "drag" : "damping", model.materials[a].name),
                 {}};
   }
+  if (!model.bonds.empty()) considerBonds(model, choice);
   considerMagnets(model, choice);
   considerHeat(model, choice);
   if (!std::isfinite(choice.limit))

@@ -1,5 +1,5 @@
 #pragma once
-// What a step may be (docs/physics.md, S1–S3).
+// What a step may be (docs/physics.md, S1–S5).
 
 #include "sim/laws/contact.h"
 #include "sim/walls/moving_wall.h"

@@ -144,6 +144,28 @@ box = { min = [-inf, -inf, -inf], max = [inf, inf, -1] }
 [counters.gate]
 point = [0, 0, 0.1]
 radius = "5 cm"
+[bonds.mortar]
+grains = "crystal"
+with_grains = "packed"
+with_material = "glass"
+distance = 1.2
+radius = 0.8
+modulus = "20 MPa"
+stiffness_ratio = 3
+strength = { tension = "1 MPa", compression_ratio = 5, shear = "2 MPa", friction_angle = "20 deg", stretch = 1.1 }
+damping = { kind = "percent", share = "5 %", bending = 0.1 }
+start = "0.1 s"
+end = "0.2 s"
+probability = 0.7
+contact = "beyond_rest"
+[bonds.nail]
+material = "glass"
+wall = "side"
+stiffness = "1e10 N/m^3"
+damping = { kind = "exponential", rate = "10 1/s", torsion = 5 }
+[bonds.gum]
+stiffness = 1e9
+damping = { kind = "viscous", ratio = 0.2, shear = 0.3 }
 [[fields.gravity]]
 kind = "turn"
 axis = [0, 1, 0]
@@ -194,6 +216,14 @@ rate = "0.1 1/s"
 every = 3
 regions = { left = { box = { min = [-1, -1, -1], max = [0, 1, 1] } }, right = { box = { min = [0, -1, -1], max = [1, 1, 1] } } }
 grid = { box = { min = [-1, -1, 0], max = [1, 1, "50 cm"] }, cells = { x = 4, y = 1, z = 5 } }
+[show]
+grains = false
+bonds = false
+grain_scale = 0.5
+bond_scale = 0.7
+bond_map = "batlow"
+bond_range = [0, 0.5]
+broken_for = "1 ms"
 [output]
 fps = "25 fps"
 frame_interval = "4 ms"

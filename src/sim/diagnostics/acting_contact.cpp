@@ -14,6 +14,7 @@ void passNoting(PairKernel kernel, const PassContext& context, const PairRange& 
   for (std::int64_t first = 0; first < range.count; first += chunkSize) {
     PairRange chunk = range;
     chunk.i += first, chunk.j += first, chunk.memory += first;
+    if (chunk.touch) chunk.touch += first;
     chunk.count = std::min<std::int64_t>(chunkSize, range.count - first);
     kernel(context, chunk, stage, accounts);
     for (int q = 0; q < static_cast<int>(chunk.count); ++q)

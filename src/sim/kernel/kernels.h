@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/bonds/bond_columns.h"
 #include "sim/grain_rows.h"
 #include "sim/kernel/stage.h"
 #include "sim/laws/contact.h"
@@ -19,6 +20,7 @@ struct PairRange {
   std::int64_t count;
   double* memory;
   std::size_t stride;
+  const double* touch = nullptr;  ///< m: distance of the centres at which a pair begins to touch; 0 for r_i + r_j. Null: so for all
 };
 
 /// What a pass needs beyond the contacts themselves.
@@ -47,6 +49,7 @@ struct Kernels {
   std::string_view isa;
   PairKernel (*pairPass)(std::size_t law, PassKind kind);
   WallKernel (*wallPass)(std::size_t law, PassKind kind);
+  BondKernel (*bonds)(BondDamping, bool breakable);  ///< all of them
 };
 
 /// A loop and how it wants its constants.

@@ -283,6 +283,27 @@ void scatter(const PassContext& context, const std::int32_t* is, const std::int3
   }
 }
 
+/// Pairs that touch at another distance than the sum of their radii: the sum is changed, and with it what the loop divides by it. The
+/// arms stay those of the grains: the spins go in scaled, and `restoreArms` scales the couple that comes out.
+template <class Law>
+void touchSooner(const double* touch, int count, Stage& s) {
+  for (int q = 0; q < count; ++q) {
+    if (touch[q] == 0) continue;
+    const double scale = touch[q] / s.radiusSum[q];
+    s.armScale[q] = scale;
+    s.radiusSum[q] = touch[q];
+    if constexpr (Law::turns) s.sx[q] *= scale, s.sy[q] *= scale, s.sz[q] *= scale;
+  }
+}
+
+template <class Law>
+void restoreArms(const double* touch, int count, Stage& s) {
+  if constexpr (Law::turns) {
+    for (int q = 0; q < count; ++q)
+      if (touch[q] != 0) s.qx[q] *= s.armScale[q], s.qy[q] *= s.armScale[q], s.qz[q] *= s.armScale[q];
+  }
+}
+
 template <class Law, bool oneClass, bool accounts>
 void passPairs(const PassContext& context, const PairRange& range, Stage& stage, Accounts& sums) {
   for (std::int64_t first = 0; first < range.count; first += chunkSize) {
@@ -290,7 +311,9 @@ void passPairs(const PassContext& context, const PairRange& range, Stage& stage,
     double* memory[mostMemory] = {};
     for (int c = 0; c < Law::stateSize; ++c) memory[c] = range.memory + static_cast<std::size_t>(c) * range.stride + first;
     gather<Law, oneClass, accounts>(context, range.i + first, range.j + first, count, stage);
+    if (range.touch) touchSooner<Law>(range.touch + first, count, stage);
     compute<Law, oneClass, accounts, false>(context, count, stage, memory);
+    if (range.touch) restoreArms<Law>(range.touch + first, count, stage);
     if constexpr (accounts) addAccounts(count, stage, sums);
     scatter<Law>(context, range.i + first, range.j + first, count, stage);
   }

@@ -203,6 +203,59 @@ void PairLists::build(State& state, const Slabs& slabs, const CellGrid& grid, do
   remembered_.clear();
 }
 
+namespace {
+
+// What a pair that never touches is given as long as it is still in the inner list, m.
+constexpr double hardlyEver = 1e-12;
+
+// A grain has few partners: they are gone through, images included.
+template <class Visit>
+void visitPair(const SlabPairs& slab, const std::vector<std::int32_t>& is, const std::vector<std::int32_t>& js, std::int32_t i,
+               std::int32_t j, Visit&& visit) {
+  const auto first = std::lower_bound(is.begin(), is.end(), i), last = std::upper_bound(first, is.end(), i);
+  for (auto at = first; at != last; ++at) {
+    const auto k = static_cast<std::size_t>(at - is.begin());
+    if (slab.grainOf(js[k]) == j) visit(k);
+  }
+}
+
+std::size_t slabOf(const Slabs& slabs, std::int32_t grain) {
+  return static_cast<std::size_t>(std::upper_bound(slabs.first.begin(), slabs.first.end(), grain) - slabs.first.begin()) - 1;
+}
+
+}  // namespace
+
+void PairLists::setTouch(const Slabs& slabs, std::int32_t a, std::int32_t b, double distance) {
+  const auto set = [&](std::int32_t i, std::int32_t j) {
+    SlabPairs& pairs = slabs_[slabOf(slabs, i)];
+    visitPair(pairs, pairs.outerI, pairs.outerJ, i, j, [&](std::size_t k) {
+      if (pairs.outerTouch.empty()) pairs.outerTouch.assign(pairs.outerI.size(), 0.0);
+      stale_ = stale_ || (pairs.outerTouch[k] < 0) != (distance < 0);
+      pairs.outerTouch[k] = distance;
+    });
+    visitPair(pairs, pairs.i, pairs.j, i, j, [&](std::size_t k) {
+      if (pairs.touch.empty()) pairs.touch.assign(pairs.i.size(), 0.0);
+      pairs.touch[k] = distance < 0 ? hardlyEver : distance;
+    });
+  };
+  set(std::min(a, b), std::max(a, b));
+  if (hasImages()) set(std::max(a, b), std::min(a, b));
+}
+
+const double* PairLists::memoryOf(const Slabs& slabs, std::int32_t a, std::int32_t b, std::size_t& stride) const {
+  const double* memory = nullptr;
+  const auto find = [&](std::int32_t i, std::int32_t j) {
+    const SlabPairs& pairs = slabs_[slabOf(slabs, i)];
+    visitPair(pairs, pairs.i, pairs.j, i, j, [&](std::size_t k) {
+      memory = pairs.memory.data() + k;
+      stride = pairs.stride;
+    });
+  };
+  find(std::min(a, b), std::max(a, b));
+  if (!memory && hasImages()) find(std::max(a, b), std::min(a, b));
+  return memory;
+}
+
 // What is remembered goes to the same pairs in the new lists: seen from the lower grain, also where the pair is seen from the higher one
 // (across the boundary).
 void PairLists::handMemory(SlabPairs& pairs) const {
@@ -220,6 +273,7 @@ void PairLists::handMemory(SlabPairs& pairs) const {
 }
 
 void PairLists::refilter(State& state, double innerSkin, ThreadTeam& team) {
+  stale_ = false;
   team.run(static_cast<int>(slabs_.size()), [&](int slab, int) { filterSlab(state, slabs_[static_cast<std::size_t>(slab)], innerSkin); });
 }
 
@@ -234,10 +288,14 @@ void PairLists::filterSlab(State& state, SlabPairs& pairs, double innerSkin) con
   for (std::size_t o = 0; o < pairs.outerI.size(); ++o) {
     const std::int32_t i = pairs.outerI[o], j = pairs.outerJ[o];
     if (!nearer(state.rows[static_cast<std::size_t>(i)], state.rows[static_cast<std::size_t>(j)], innerSkin)) continue;
+    if (!pairs.outerTouch.empty() && pairs.outerTouch[o] < 0) continue;
     pairs.i.push_back(i);
     pairs.j.push_back(j);
     pairs.outerIndex.push_back(static_cast<std::int32_t>(o));
   }
+  pairs.touch.clear();
+  if (!pairs.outerTouch.empty())
+    for (const std::int32_t o : pairs.outerIndex) pairs.touch.push_back(pairs.outerTouch[static_cast<std::size_t>(o)]);
   if (stateSize_ == 0) return;
   pairs.stride = pairs.i.size();
   pairs.memory.assign(pairs.stride * static_cast<std::size_t>(stateSize_), 0.0);

@@ -32,6 +32,10 @@ struct SlabPairs {
   std::vector<std::int32_t> i, j, outerIndex;  ///< inner list, and where each pair is in the outer one
   std::vector<double> memory;                  ///< component c of inner pair k at memory[c * stride + k]
   std::size_t stride = 0;
+  std::vector<double> outerTouch, touch;       ///< m: see PairRange::touch, along each list; empty: none
+
+  /// m: the distance of the centres at which pair k begins to touch, given the sum of its radii.
+  double touchOf(std::size_t k, double radiusSum) const { return touch.empty() || touch[k] == 0 ? radiusSum : touch[k]; }
   std::vector<Image> images;
   std::int32_t firstImage = std::numeric_limits<std::int32_t>::max();  ///< row of the first
 
@@ -60,6 +64,15 @@ class PairLists {
   void foldImages(State& state, int slab) const;
   bool hasImages() const { return !folds_.empty(); }
 
+  /// Lets a listed pair (any order) touch at another distance of the centres (m) than the sum of its radii; 0: at that again; negative:
+  /// never, then the inner list does without it.
+  void setTouch(const Slabs& slabs, std::int32_t a, std::int32_t b, double distance);
+
+  /// Must the inner lists be made anew, since pairs have begun or ceased to touch?
+  bool stale() const { return stale_; }
+  /// Memory of a pair (any order) in the inner list, component c at [c * stride]; null when it is not there.
+  const double* memoryOf(const Slabs& slabs, std::int32_t a, std::int32_t b, std::size_t& stride) const;
+
   std::vector<SlabPairs>& slabs() { return slabs_; }
   const std::vector<SlabPairs>& slabs() const { return slabs_; }
   std::size_t listed() const;
@@ -80,6 +93,7 @@ class PairLists {
   void filterSlab(State& state, SlabPairs& pairs, double innerSkin) const;
 
   int stateSize_;
+  bool stale_ = false;
   unsigned odd_;
   std::vector<SlabPairs> slabs_;
   std::vector<Remembered> remembered_;        // between two orders; sorted by i

@@ -37,6 +37,8 @@ INSTANTIATE_TEST_SUITE_P(Meshes, Asset,
                                          Expected{"drum_lifters.stl", 6, 6 * 4, 6 * 4, {-0.12, -0.05, -0.1058}, {0.12, 0.05, 0.1058}},
                                          Expected{"roller.stl", 72 + 2, 3 * 72, 2 * 72, {-0.008, -0.005, -0.008}, {0.008, 0.005, 0.008}},
                                          Expected{"gate.obj", 1, 4, 4, {-0.564, -0.1, 0.317}, {-0.516, 0.1, 0.393}},
+                                         Expected{"block.obj", 6, 12, 8, {-0.06, -0.05, -0.06}, {0, 0.05, 0.06}},
+                                         Expected{"press.obj", 64 + 2, 3 * 64, 2 * 64, {-0.02, -0.04, -0.02}, {0.02, 0.04, 0.02}},
                                          Expected{"table.gltf", 5 * 6, 5 * 12, 5 * 8, {-0.25, -0.08, -0.1}, {0.25, 0.08, 0}}),
                          [](const auto& mesh) {
                            std::string name = mesh.param.name;

@@ -1,0 +1,41 @@
+#include "sim/bonds/bond_columns.h"
+
+namespace tsubu::sim {
+
+void BondColumns::add(std::int32_t first, std::int32_t second, const BondBody& body, const BondMemory& memory) {
+  i.push_back(first);
+  j.push_back(second);
+  const double values[columns] = {memory.t.x,   memory.t.y,  memory.t.z,    memory.shearT, memory.shearB,  memory.twist,  memory.bendT,
+                                  memory.bendB, memory.rest, body.radius, body.stiffness, body.length, body.critical, body.bendCritical};
+  for (std::size_t c = 0; c < columns; ++c) column[c].push_back(values[c]);
+}
+
+void BondColumns::take(const BondColumns& from, std::size_t k) {
+  i.push_back(from.i[k]);
+  j.push_back(from.j[k]);
+  for (std::size_t c = 0; c < columns; ++c) column[c].push_back(from.column[c][k]);
+}
+
+void BondColumns::drop(const std::vector<char>& marked) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < size(); ++k) {
+    if (marked[k]) continue;
+    i[kept] = i[k];
+    j[kept] = j[k];
+    for (auto& values : column) values[kept] = values[k];
+    ++kept;
+  }
+  i.resize(kept);
+  j.resize(kept);
+  for (auto& values : column) values.resize(kept);
+}
+
+BondBody BondColumns::body(std::size_t k) const {
+  return {at(radius, k), at(stiffness, k), at(length, k), at(critical, k), at(bendCritical, k)};
+}
+
+BondMemory BondColumns::memory(std::size_t k) const {
+  return {{at(tx, k), at(ty, k), at(tz, k)}, at(shearT, k), at(shearB, k), at(twist, k), at(bendT, k), at(bendB, k), at(rest, k)};
+}
+
+}  // namespace tsubu::sim

@@ -1,0 +1,76 @@
+#pragma once
+// The bonds of one slab, column by column, and what the kernels need to walk them.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sim/bonds/bond_law.h"
+#include "sim/grain_rows.h"
+#include "sim/state.h"
+
+namespace tsubu::sim {
+
+/// Everything about bonds between grains that lies along the list. The ends are places of grains, the lower id first.
+struct BondColumns {
+  enum Name { tx, ty, tz, shearT, shearB, twist, bendT, bendB, rest, radius, stiffness, length, critical, bendCritical, columns };
+
+  std::vector<std::int32_t> i, j;
+  std::array<std::vector<double>, columns> column;
+
+  std::size_t size() const { return i.size(); }
+  double& at(Name name, std::size_t k) { return column[name][k]; }
+  double at(Name name, std::size_t k) const { return column[name][k]; }
+
+  void add(std::int32_t first, std::int32_t second, const BondBody& body, const BondMemory& memory);
+  /// Appends bond k of another list.
+  void take(const BondColumns& from, std::size_t k);
+  /// Keeps the bonds that are not marked, in their order.
+  void drop(const std::vector<char>& marked);
+
+  BondBody body(std::size_t k) const;
+  BondMemory memory(std::size_t k) const;
+};
+
+inline constexpr int bondChunk = 64;
+
+/// The bench of a chunk of bonds: see Stage. Three columns for a vector.
+struct alignas(64) BondStage {
+  using Column = double[bondChunk];
+  struct Motion {
+    Column velocity[3], spinSum[3], spin[3];
+  };
+
+  Column d[3], radiusSum;
+  Motion half, now;  // `now` only when something is damped
+  Column force[3], couple[3], moment[3];
+  Column loss, relaxed, load, released;
+};
+
+/// The ends of bonds as rows: of grains, or of the places on a wall where bonds are fixed.
+struct BondRows {
+  const GrainRow* rows;
+  const HalfStepRow* half;  ///< null but in velocity Verlet: the rows have the velocities of the half step
+  ForceRow* forces;
+};
+
+/// What a pass over the bonds of one slab finds. Sums in eight lanes, as in Accounts.
+struct BondFindings {
+  double loss[8] = {};      ///< J: taken by dampers in this step
+  double relaxed[8] = {};   ///< J: taken by relaxation since the step before
+  std::vector<std::int32_t> broken;
+  double released = 0;      ///< J: by those
+
+  static double sum(const double* lanes) {
+    double total = 0;
+    for (int l = 0; l < 8; ++l) total += lanes[l];
+    return total;
+  }
+};
+
+/// Advances all bonds of a list by a step and adds their forces to the rows of both ends. Bonds that break do nothing any more and are
+/// named in `found.broken`; they are still in the list.
+using BondKernel = void (*)(const BondKind&, BondColumns&, const BondRows& first, const BondRows& second, double dt, BondStage&,
+                            BondFindings& found);
+
+}  // namespace tsubu::sim

@@ -1,0 +1,489 @@
+#include "sim/bonds/bond_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/snapshot.h"
+#include "sim/simulation.h"
+
+namespace tsubu::sim {
+
+namespace {
+
+// A bond to a wall ends on a sphere so small that its radius means nothing, but not zero, so that what is kept as r ω has a meaning.
+constexpr double tinyRadius = 1e-9;
+// While bonds are made all the time, pairs are looked for again when two grains may have come nearer by this share of the smallest radius.
+constexpr double searchTravel = 0.01;
+
+Vec3 positionOf(const GrainRow& row) { return {row.x, row.y, row.z}; }
+/// x_a − x_b, across the boundary of a periodic domain when that is shorter.
+Vec3 between(const World& world, const GrainRow& a, const GrainRow& b) { return world.periods.nearest(positionOf(a) - positionOf(b)); }
+double distanceOf(const World& world, const GrainRow& a, const GrainRow& b) { return between(world, a, b).norm(); }
+
+int slabOf(const Slabs& slabs, std::int32_t place) {
+  return static_cast<int>(std::upper_bound(slabs.first.begin(), slabs.first.end(), place) - slabs.first.begin()) - 1;
+}
+
+std::uint64_t keyOf(std::uint32_t a, std::uint32_t b) { return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b); }
+
+}  // namespace
+
+// --- bonds with walls ---------------------------------------------------------------------------------------------------
+
+void BondPass::WallBonds::add(std::int32_t grain, const Vec3& place, const BondBody& body, const BondMemory& memory) {
+  bonds.add(grain, static_cast<std::int32_t>(bonds.size()), body, memory);
+  foot.push_back(place);
+}
+
+void BondPass::WallBonds::take(const WallBonds& from, std::size_t k) {
+  bonds.take(from.bonds, k);
+  bonds.j.back() = static_cast<std::int32_t>(foot.size());
+  foot.push_back(from.foot[k]);
+}
+
+void BondPass::WallBonds::drop(const std::vector<char>& marked) {
+  bonds.drop(marked);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < foot.size(); ++k)
+    if (!marked[k]) foot[kept++] = foot[k];
+  foot.resize(kept);
+  std::iota(bonds.j.begin(), bonds.j.end(), 0);
+}
+
+void BondPass::WallBonds::place(const WallMotion& motion, const std::vector<GrainRow>& grains, double time, double dt) {
+  rows.resize(foot.size());
+  half.resize(foot.size());
+  forces.assign(foot.size(), ForceRow{});
+  const Pose now = motion.at(time), before = motion.at(time - dt);
+  const Twist twist = motion.twistAt(time);
+  const Vec3 spin = motion.twistAt(time - 0.5 * dt).angularVelocity;
+  for (std::size_t k = 0; k < foot.size(); ++k) {
+    const double r = tinyRadius * grains[static_cast<std::size_t>(bonds.i[k])].radius;
+    const Vec3 x = now.toWorld(foot[k]), v = twist.at(x), u = (x - before.toWorld(foot[k])) / dt;
+    const Vec3 s = r * twist.angularVelocity, w = r * spin;
+    rows[k] = {x.x(), x.y(), x.z(), r, v.x(), v.y(), v.z(), 0, s.x(), s.y(), s.z(), 1 / r};
+    half[k] = {u.x(), u.y(), u.z(), 0, w.x(), w.y(), w.z(), 0};
+  }
+}
+
+// What the wall does to the grains is the opposite of what the bond does to its foot: force −F, torque −r Q (grain_rows.h).
+void BondPass::WallBonds::work_(double dt) {
+  double power = 0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const GrainRow& r = rows[k];
+    const ForceRow& f = forces[k];
+    power += f.qx * r.sx + f.qy * r.sy + f.qz * r.sz - (f.fx * r.vx + f.fy * r.vy + f.fz * r.vz);
+  }
+  work.add(power * dt);
+}
+
+// --- the pass -----------------------------------------------------------------------------------------------------------
+
+BondPass::BondPass(const Model& model) : shown_(model.showBonds) {
+  for (const Bonding& bonding : model.bonds) {
+    if (bonding.wall && model.walls[*bonding.wall].body)
+      throw Error(ErrorKind::scene, fmt::format("The bonds '{}' cannot hold on to the wall '{}', which moves under load.", bonding.name,
+                                                model.walls[*bonding.wall].name),
+                  "give the wall a motion instead, or none");
+    Kind kind;
+    kind.bonding = &bonding;
+    kind.constants = kindOf(bonding);
+    kind.kernel = kernels().bonds(bonding.damping, bonding.strength.breakable());
+    kinds_.push_back(std::move(kind));
+    until_ = std::max({until_, bonding.start, bonding.end});
+  }
+}
+
+template <class Visit>
+void BondPass::visit(const State& state, Visit&& visit) const {
+  for (const Kind& kind : kinds_) {
+    for (const SlabBonds& slab : kind.slabs) {
+      for (std::size_t k = 0; k < slab.near.size(); ++k) visit(kind, slab.near, k, state.rows, false);
+      for (std::size_t k = 0; k < slab.wall.rows.size(); ++k) visit(kind, slab.wall.bonds, k, slab.wall.rows, true);
+    }
+    for (std::size_t k = 0; k < kind.far.size(); ++k) visit(kind, kind.far, k, state.rows, false);
+  }
+}
+
+void BondPass::regroup(const World& world, const std::vector<std::int32_t>& newPlace) {
+  const auto moved = [&newPlace](std::int32_t place) { return newPlace[static_cast<std::size_t>(place)]; };
+  for (Kind& kind : kinds_) {
+    BondColumns all;
+    WallBonds walls;
+    const auto carry = [&](const BondColumns& bonds) {
+      for (std::size_t k = 0; k < bonds.size(); ++k) {
+        const std::int32_t i = moved(bonds.i[k]), j = moved(bonds.j[k]);
+        if (i < 0 || j < 0) {
+          --holding_;
+          continue;
+        }
+        all.take(bonds, k);
+        all.i.back() = i;
+        all.j.back() = j;
+      }
+    };
+    for (const SlabBonds& slab : kind.slabs) {
+      carry(slab.near);
+      walls.work.total += slab.wall.work.total;
+      walls.work.last += slab.wall.work.last;
+      for (std::size_t k = 0; k < slab.wall.bonds.size(); ++k) {
+        const std::int32_t i = moved(slab.wall.bonds.i[k]);
+        if (i < 0) {
+          --holding_;
+          continue;
+        }
+        walls.take(slab.wall, k);
+        walls.bonds.i.back() = i;
+      }
+    }
+    carry(kind.far);
+    settle(world, kind, all, walls);
+  }
+  std::size_t kept = 0;
+  for (Scar scar : scars_) {
+    scar.i = moved(scar.i);
+    scar.j = moved(scar.j);
+    if (scar.i < 0 || scar.j < 0) continue;
+    world.pairs.setTouch(world.slabs, scar.i, scar.j, scar.touch);
+    scars_[kept++] = scar;
+  }
+  scars_.resize(kept);
+  if (step_ == 0) makeDue(world);
+}
+
+// Lays the bonds of a kind along the slabs, in the order of their places, and says how bonded pairs touch.
+void BondPass::settle(const World& world, Kind& kind, BondColumns& all, WallBonds& walls) {
+  const auto count = static_cast<std::size_t>(world.slabs.count());
+  std::vector<SlabBonds> slabs(count);
+  BondColumns far;
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto places = [&all](std::size_t k) { return std::pair(std::min(all.i[k], all.j[k]), std::max(all.i[k], all.j[k])); };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return places(a) < places(b); });
+  for (const std::size_t k : order) {
+    const auto [low, high] = places(k);
+    const int slab = slabOf(world.slabs, low);
+    const GrainRow &a = world.state.rows[static_cast<std::size_t>(low)], &b = world.state.rows[static_cast<std::size_t>(high)];
+    const bool isNear = slabOf(world.slabs, high) <= slab + 1 && (!world.periods.any() || between(world, a, b) == positionOf(a) - positionOf(b));
+    (isNear ? slabs[static_cast<std::size_t>(slab)].near : far).take(all, k);
+    const double sum = a.radius + b.radius;
+    world.pairs.setTouch(world.slabs, low, high, touchOf(kind, all.at(BondColumns::rest, k), sum));
+  }
+  std::vector<std::size_t> wallOrder(walls.foot.size());
+  std::iota(wallOrder.begin(), wallOrder.end(), std::size_t{0});
+  std::stable_sort(wallOrder.begin(), wallOrder.end(), [&](std::size_t a, std::size_t b) { return walls.bonds.i[a] < walls.bonds.i[b]; });
+  for (const std::size_t k : wallOrder) slabs[static_cast<std::size_t>(slabOf(world.slabs, walls.bonds.i[k]))].wall.take(walls, k);
+  if (kind.bonding->wall) {
+    for (SlabBonds& slab : slabs) slab.wall.place(world.model.walls[*kind.bonding->wall].motion, world.state.rows, world.time, world.step.dt);
+    slabs.front().wall.work = walls.work;
+  }
+  kind.slabs = std::move(slabs);
+  kind.far = std::move(far);
+}
+
+double BondPass::touchOf(const Kind& kind, double rest, double radiusSum) const {
+  return kind.bonding->contactBeyondRest ? std::min(rest, radiusSum) : -1;
+}
+
+// Bonds of the start are made with the first lists, before anything has touched, and are not strained yet at the first instant.
+void BondPass::addForces(const World& world) {
+  if (step_ > 0) {
+    evaluate(world);
+    letGo(world);
+    carryScars(world);
+    makeDue(world);
+  }
+  ++step_;
+}
+
+void BondPass::evaluate(const World& world) {
+  State& state = world.state;
+  const double dt = world.step.dt;
+  stages_.resize(static_cast<std::size_t>(world.team.threads()));
+  const BondRows grains{state.rows.data(), !state.half.empty() ? state.half.data() : nullptr, state.forces.data()};
+  for (int parity = 0; parity < 2; ++parity) {
+    world.team.run((world.slabs.count() + 1 - parity) / 2, [&](int task, int thread) {
+      BondStage& stage = stages_[static_cast<std::size_t>(thread)];
+      for (Kind& kind : kinds_) {
+        SlabBonds& slab = kind.slabs[static_cast<std::size_t>(2 * task + parity)];
+        slab.found = slab.foundAtWall = {};
+        kind.kernel(kind.constants, slab.near, grains, grains, dt, stage, slab.found);
+        WallBonds& wall = slab.wall;
+        if (wall.foot.empty()) {
+          wall.work.add(0);
+          continue;
+        }
+        wall.place(world.model.walls[*kind.bonding->wall].motion, state.rows, world.time, dt);
+        const BondRows feet{wall.rows.data(), !state.half.empty() ? wall.half.data() : nullptr, wall.forces.data()};
+        if (state.half.empty())  // the rows of the other schemes have the velocities of the half step
+          for (std::size_t k = 0; k < wall.rows.size(); ++k) {
+            std::copy_n(&wall.half[k].vx, 3, &wall.rows[k].vx);
+            std::copy_n(&wall.half[k].sx, 3, &wall.rows[k].sx);
+          }
+        kind.kernel(kind.constants, wall.bonds, grains, feet, dt, stage, slab.foundAtWall);
+        wall.work_(dt);
+      }
+    });
+  }
+  double loss = 0;
+  for (Kind& kind : kinds_) {
+    kind.foundFar = {};
+    if (world.periods.any())
+      evaluateAcross(world, kind, grains);
+    else
+      kind.kernel(kind.constants, kind.far, grains, grains, dt, stages_.front(), kind.foundFar);
+    const auto add = [&](const BondFindings& found) {
+      loss += BondFindings::sum(found.loss);
+      relaxed_ += BondFindings::sum(found.relaxed);
+    };
+    for (const SlabBonds& slab : kind.slabs) {
+      add(slab.found);
+      add(slab.foundAtWall);
+    }
+    add(kind.foundFar);
+  }
+  loss_.add(loss);
+}
+
+// The second grain of each bond is replaced by its nearest image, and what acts on that is handed to it.
+void BondPass::evaluateAcross(const World& world, Kind& kind, const BondRows& grains) {
+  BondColumns& bonds = kind.far;
+  State& state = world.state;
+  std::vector<std::int32_t> owners(bonds.size());
+  std::iota(owners.begin(), owners.end(), 0);
+  std::swap(owners, bonds.j);
+  std::vector<GrainRow> rows;
+  std::vector<HalfStepRow> half;
+  std::vector<ForceRow> forces(owners.size());
+  for (std::size_t k = 0; k < owners.size(); ++k) {
+    const auto j = static_cast<std::size_t>(owners[k]);
+    const GrainRow& first = state.rows[static_cast<std::size_t>(bonds.i[k])];
+    const Vec3 x = positionOf(first) - between(world, first, state.rows[j]);
+    rows.push_back(state.rows[j]);
+    rows.back().x = x.x(), rows.back().y = x.y(), rows.back().z = x.z();
+    if (!state.half.empty()) half.push_back(state.half[j]);
+  }
+  kind.kernel(kind.constants, bonds, grains, {rows.data(), !state.half.empty() ? half.data() : nullptr, forces.data()}, world.step.dt, stages_.front(),
+              kind.foundFar);
+  std::swap(owners, bonds.j);
+  for (std::size_t k = 0; k < bonds.size(); ++k) {
+    ForceRow& to = state.forces[static_cast<std::size_t>(bonds.j[k])];
+    const ForceRow& from = forces[k];
+    to.fx += from.fx, to.fy += from.fy, to.fz += from.fz;
+    to.qx += from.qx, to.qy += from.qy, to.qz += from.qz;
+  }
+}
+
+void BondPass::letGo(const World& world) {
+  const auto marks = [](const BondColumns& bonds, const BondFindings& found) {
+    std::vector<char> marked(bonds.size(), 0);
+    for (const std::int32_t k : found.broken) marked[static_cast<std::size_t>(k)] = 1;
+    return marked;
+  };
+  if (!breaks_.empty() && breaks_.front().time + *shown_ < world.time)
+    std::erase_if(breaks_, [&](const Break& old) { return old.time + *shown_ < world.time; });
+  for (Kind& kind : kinds_) {
+    for (SlabBonds& slab : kind.slabs) {
+      if (!slab.found.broken.empty()) {
+        letGo(world, kind, slab.near, world.state.rows, slab.found);
+        slab.near.drop(marks(slab.near, slab.found));
+      }
+      if (!slab.foundAtWall.broken.empty()) {
+        letGo(world, kind, slab.wall.bonds, slab.wall.rows, slab.foundAtWall);
+        slab.wall.drop(marks(slab.wall.bonds, slab.foundAtWall));
+        slab.wall.place(world.model.walls[*kind.bonding->wall].motion, world.state.rows, world.time, world.step.dt);
+      }
+    }
+    if (!kind.foundFar.broken.empty()) {
+      letGo(world, kind, kind.far, world.state.rows, kind.foundFar);
+      kind.far.drop(marks(kind.far, kind.foundFar));
+    }
+  }
+}
+
+void BondPass::letGo(const World& world, const Kind& kind, const BondColumns& bonds, const std::vector<GrainRow>& second,
+                     BondFindings& found) {
+  holding_ -= found.broken.size();
+  broken_ += found.broken.size();
+  released_ += found.released;
+  for (const std::int32_t broken : found.broken) {
+    const auto k = static_cast<std::size_t>(broken);
+    const GrainRow& a = world.state.rows[static_cast<std::size_t>(bonds.i[k])];
+    const GrainRow& b = second[static_cast<std::size_t>(bonds.j[k])];
+    if (shown_) breaks_.push_back({positionOf(a), positionOf(a) - between(world, a, b), bonds.at(BondColumns::radius, k), world.time});
+    if (&second != &world.state.rows) continue;
+    const double sum = a.radius + b.radius, touched = touchOf(kind, bonds.at(BondColumns::rest, k), sum);
+    const double touch = std::max(touched, std::min(distanceOf(world, a, b), sum));
+    if (touch < sum) scars_.push_back({bonds.i[k], bonds.j[k], touch});
+    world.pairs.setTouch(world.slabs, bonds.i[k], bonds.j[k], touch < sum ? touch : 0);
+  }
+}
+
+void BondPass::carryScars(const World& world) {
+  std::size_t kept = 0;
+  for (Scar scar : scars_) {
+    const GrainRow& a = world.state.rows[static_cast<std::size_t>(scar.i)];
+    const GrainRow& b = world.state.rows[static_cast<std::size_t>(scar.j)];
+    const double sum = a.radius + b.radius, distance = distanceOf(world, a, b);
+    if (distance > scar.touch) {
+      scar.touch = distance;
+      world.pairs.setTouch(world.slabs, scar.i, scar.j, distance < sum ? distance : 0);
+    }
+    if (scar.touch < sum) scars_[kept++] = scar;
+  }
+  scars_.resize(kept);
+}
+
+// --- making -------------------------------------------------------------------------------------------------------------
+
+void BondPass::makeDue(const World& world) {
+  const double slack = 0.5 * world.step.dt;
+  if (world.time > until_ + slack) {
+    known_.clear();
+    knownAtWalls_.clear();
+    return;
+  }
+  bool searched = false;
+  for (std::size_t k = 0; k < kinds_.size(); ++k) {
+    Kind& kind = kinds_[k];
+    const Bonding& bonding = *kind.bonding;
+    if (world.time < bonding.start - slack) continue;
+    if (bonding.end > bonding.start) {
+      if (step_ < nextSearch_ || world.time > bonding.end + slack) continue;
+      searched = true;
+    } else if (kind.made) {
+      continue;
+    }
+    kind.made = true;
+    make(world, k);
+  }
+  if (!searched) return;
+  double fastest2 = 0, smallest = std::numeric_limits<double>::infinity();
+  for (const GrainRow& row : world.state.rows) {
+    fastest2 = std::max(fastest2, norm2(row.velocity()));
+    smallest = std::min(smallest, row.radius);
+  }
+  const double way = 2 * std::sqrt(fastest2) * world.step.dt, steps = searchTravel * smallest / std::max(way, tiny);
+  nextSearch_ = step_ + static_cast<std::uint64_t>(std::clamp(steps, 1.0, 1000.0));
+}
+
+void BondPass::make(const World& world, std::size_t number) {
+  Kind& kind = kinds_[number];
+  const Bonding& bonding = *kind.bonding;
+  const State& state = world.state;
+  const BondableGrains grains{state.rows, state.id, state.material, world.periods};
+  BondColumns all;
+  WallBonds walls;
+  for (const SlabBonds& slab : kind.slabs) {
+    for (std::size_t k = 0; k < slab.near.size(); ++k) all.take(slab.near, k);
+    for (std::size_t k = 0; k < slab.wall.foot.size(); ++k) walls.take(slab.wall, k);
+    walls.work.total += slab.wall.work.total;
+    walls.work.last += slab.wall.work.last;
+  }
+  for (std::size_t k = 0; k < kind.far.size(); ++k) all.take(kind.far, k);
+  const std::size_t before = all.size() + walls.foot.size();
+  if (bonding.wall) {
+    const Pose pose = world.model.walls[*bonding.wall].motion.at(world.time);
+    for (const WallFoot& foot : bondableFeet(bonding, number, world.model.seed, grains, world.model.walls[*bonding.wall], pose)) {
+      const auto g = static_cast<std::size_t>(foot.grain);
+      if (!knownAtWalls_.insert((std::uint64_t{*bonding.wall} << 32) | state.id[g]).second) continue;
+      const GrainRow& row = state.rows[g];
+      const Vec3 d = positionOf(row) - foot.point;
+      const BondInertia inertia{row.inverseMass, 2.5 * row.inverseMass * row.inverseRadius * row.inverseRadius};
+      walls.add(foot.grain, pose.toLocal(foot.point), bodyOf(bonding, row.radius, d.norm(), inertia), freshMemory(d));
+    }
+  } else {
+    for (const BondedPair& pair : bondablePairs(bonding, number, world.model.seed, grains)) {
+      const auto i = static_cast<std::size_t>(pair.i), j = static_cast<std::size_t>(pair.j);
+      if (!known_.insert(keyOf(state.id[i], state.id[j])).second) continue;
+      const GrainRow &a = state.rows[i], &b = state.rows[j];
+      const Vec3 d = between(world, a, b);
+      if (step_ > 0) silenced_ += world.contactEnergy(pair.i, pair.j);
+      all.add(pair.i, pair.j, bodyOf(bonding, std::min(a.radius, b.radius), d.norm(), inertiaOf(a, b)), freshMemory(d));
+    }
+  }
+  const std::size_t made = all.size() + walls.foot.size() - before;
+  holding_ += made;
+  if (made > 0) settle(world, kind, all, walls);
+}
+
+// --- accounts -----------------------------------------------------------------------------------------------------------
+
+namespace {
+double storedIn(const World& world, const BondKind& constants, const BondColumns& bonds, std::size_t k, const GrainRow& a, const GrainRow& b) {
+  const BondMemory memory = bonds.memory(k);
+  const double stretch = memory.rest - distanceOf(world, a, b);
+  return springProduct(bonds.body(k), constants.shearOverNormal, stretch, stretch, memory, memory);
+}
+}  // namespace
+
+// Half of this step's kick belongs to the present instant where velocities live at half steps, none of it elsewhere; springs are of the instant.
+void BondPass::account(const World& world, Ledger& ledger) const {
+  const double share = schemeOf(world.model.integrator).behind;
+  visit(world.state, [&](const Kind& kind, const BondColumns& bonds, std::size_t k, const std::vector<GrainRow>& second, bool) {
+    ledger.elasticBonds += sim::storedIn(world, kind.constants, bonds, k, world.state.rows[static_cast<std::size_t>(bonds.i[k])],
+                                         second[static_cast<std::size_t>(bonds.j[k])]);
+  });
+  ledger.dissipatedBonds += loss_.now(share) + relaxed_ + silenced_;
+  ledger.dissipatedBreakage += released_;
+  for (const Kind& kind : kinds_)
+    for (const SlabBonds& slab : kind.slabs) ledger.workWalls += slab.wall.work.now(share);
+}
+
+double BondPass::storedIn(const World& world, const std::vector<char>& grains) const {
+  double energy = 0;
+  visit(world.state, [&](const Kind& kind, const BondColumns& bonds, std::size_t k, const std::vector<GrainRow>& second, bool wall) {
+    const auto i = static_cast<std::size_t>(bonds.i[k]), j = static_cast<std::size_t>(bonds.j[k]);
+    if (grains[i] || (!wall && grains[j])) energy += sim::storedIn(world, kind.constants, bonds, k, world.state.rows[i], second[j]);
+  });
+  return energy;
+}
+
+void BondPass::count(Counts& counts) const {
+  counts.bonds = holding_;
+  counts.broken = broken_;
+}
+
+void BondPass::show(const World& world, Snapshot& snapshot) const {
+  if (!shown_) return;
+  visit(world.state, [&](const Kind& kind, const BondColumns& bonds, std::size_t k, const std::vector<GrainRow>& second, bool) {
+    const GrainRow& first = world.state.rows[static_cast<std::size_t>(bonds.i[k])];
+    const Vec3 a = positionOf(first), b = a - between(world, first, second[static_cast<std::size_t>(bonds.j[k])]);
+    const BondBody body = bonds.body(k);
+    const BondMemory m = bonds.memory(k);
+    const double area = bondPi * body.radius * body.radius, normalK = body.stiffness * area, bendK = 0.25 * normalK * body.radius * body.radius;
+    const double shearK = kind.constants.shearOverNormal * normalK, twistK = 2 * kind.constants.shearOverNormal * bendK;
+    const double r = (a - b).norm();
+    const double load = bondLoad(kind.constants, body.radius, normalK * (m.rest - r), shearK * shearK * (m.shearT * m.shearT + m.shearB * m.shearB),
+                                 twistK * m.twist, bendK * bendK * (m.bendT * m.bendT + m.bendB * m.bendB), r / body.length);
+    snapshot.bonds.push_back({a, b, body.radius, load, -1});
+  });
+  for (const Break& each : breaks_) snapshot.bonds.push_back({each.first, each.second, each.radius, 0, world.time - each.time});
+}
+
+// Bonds in any order: the hash of each, keyed by its ids, added up.
+std::uint64_t BondPass::hash(const State& state) const {
+  std::uint64_t sum = 0;
+  visit(state, [&](const Kind& kind, const BondColumns& bonds, std::size_t k, const std::vector<GrainRow>&, bool wall) {
+    Hash hash;
+    hash.add(static_cast<std::uint64_t>(&kind - kinds_.data()));
+    hash.add(std::uint64_t{state.id[static_cast<std::size_t>(bonds.i[k])]});
+    hash.add(wall ? ~std::uint64_t{0} : std::uint64_t{state.id[static_cast<std::size_t>(bonds.j[k])]});
+    for (const auto& column : bonds.column) hash.add(column[k]);
+    sum += hash.value();
+  });
+  for (const Scar& scar : scars_) {
+    Hash hash;
+    hash.add(keyOf(state.id[static_cast<std::size_t>(scar.i)], state.id[static_cast<std::size_t>(scar.j)]));
+    hash.add(scar.touch);
+    sum += hash.value();
+  }
+  return sum + broken_;
+}
+
+}  // namespace tsubu::sim

@@ -1,0 +1,207 @@
+// One bond, its ends led by hand: force and moment against the formulas B1–B10, unequal radii, oblique, both signs.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/vec.h"
+#include "sim/bonds/bond_search.h"
+
+namespace tsubu::sim {
+namespace {
+
+V3 v3(const Vec3& a) { return {a.x(), a.y(), a.z()}; }
+Vec3 vec(V3 a) { return {a.x, a.y, a.z}; }
+
+constexpr double ri = 1.3e-3, rj = 2.1e-3, lambda = 0.7;
+const Vec3 axis = Vec3(1, -2, 0.7).normalized();
+const Vec3 side = Vec3(axis.cross(Vec3(0.3, 1, 1))).normalized();
+const Vec3 up = axis.cross(side);
+
+Bonding someBonding() {
+  Bonding bonding;
+  bonding.radius = lambda;
+  bonding.stiffness = 3e11;
+  bonding.stiffnessRatio = 2.4;
+  return bonding;
+}
+
+constexpr BondInertia unitInertia{1, 1};
+
+/// Two grains that go where they are told, and the bond between them.
+struct Led {
+  Bonding bonding = someBonding();
+  Vec3 d = (ri + rj) * 1.02 * axis;
+  BondMemory memory = freshMemory(d);
+  BondBody body = bodyOf(bonding, ri, d.norm(), unitInertia);
+  BondForce force{};
+  double work = 0, loss = 0;
+
+  /// Moves i against j with constant velocity and constant spins, in `steps` steps.
+  template <BondDamping damping = BondDamping::none, bool breakable = false>
+  void lead(double time, const Vec3& velocity, const Vec3& spinI, const Vec3& spinJ, int steps = 1000) {
+    const BondKind kind = kindOf(bonding);
+    const double dt = time / steps;
+    const BondMotion motion{v3(velocity), v3(ri * spinI + rj * spinJ), v3(spinI - spinJ)};
+    const auto power = [&] { return -(vec(force.force).dot(velocity) + torqueI().dot(spinI) + torqueJ().dot(spinJ)); };
+    for (int k = 0; k < steps; ++k) {
+      const double before = power();
+      d += dt * velocity;
+      force = stepBond<damping, breakable>(kind, body, v3(d), 1 / (ri + rj), motion, motion, dt, memory);
+      work += 0.5 * dt * (before + power());
+      loss += force.loss + force.relaxed;
+    }
+  }
+  Vec3 torqueI() const { return -ri * force.arm * vec(force.couple) + vec(force.moment); }
+  Vec3 torqueJ() const { return -rj * force.arm * vec(force.couple) - vec(force.moment); }
+  double area() const { return bondPi * body.radius * body.radius; }
+  double inertia() const { return bondPi * std::pow(body.radius, 4) / 4; }
+  double stored() const {
+    const double stretch = memory.rest - d.norm();
+    return springProduct(body, 1 / bonding.stiffnessRatio, stretch, stretch, memory, memory);
+  }
+};
+
+TEST(BondLaw, HasTheSectionOfTheSmallerGrain) { EXPECT_DOUBLE_EQ(Led().body.radius, lambda * ri); }
+
+TEST(BondLaw, PullsAndPushesAlongItself) {
+  for (const double by : {2.3e-5, -1.7e-5}) {
+    Led led;
+    led.lead(1, by * axis, Vec3::Zero(), Vec3::Zero());
+    const Vec3 expected = -led.bonding.stiffness * led.area() * by * axis;
+    EXPECT_LT((vec(led.force.force) - expected).norm(), 1e-10 * expected.norm());
+    EXPECT_LT(led.torqueI().norm() + led.torqueJ().norm(), 1e-12 * expected.norm() * ri);
+  }
+}
+
+TEST(BondLaw, ShearsAcrossItself) {
+  const double r = 1.02 * (ri + rj);
+  for (const double by : {1e-7, -2e-7}) {
+    Led led;
+    led.lead(1, by * side, Vec3::Zero(), Vec3::Zero());
+    const Vec3 expected = -led.bonding.stiffness / 2.4 * led.area() * by * side;
+    EXPECT_LT((vec(led.force.force) - expected).norm(), 3e-4 * expected.norm());  // by/r of turning
+    // Bond (12) has the opposite torque on j; but a couple of r × F needs both ends to give the same sign.
+    const Vec3 lost = led.torqueI() + led.torqueJ() + led.d.cross(vec(led.force.force));
+    EXPECT_LT(lost.norm(), 1e-12 * r * expected.norm());
+    EXPECT_GT(led.torqueI().dot(led.torqueJ()), 0);
+  }
+}
+
+// Bond (5) has R_i ω_i − R_j ω_j. Spins that mesh like toothed wheels shear nothing, equal spins shear twice.
+TEST(BondLaw, SpinsThatMeshDoNotShear) {
+  Led mesh, same;
+  mesh.lead(1, Vec3::Zero(), 1e-4 / ri * up, -1e-4 / rj * up);
+  EXPECT_LT(vec(mesh.force.force).norm(), 1e-12 * 1e-4 * mesh.bonding.stiffness * mesh.area());
+  const double angle = 1e-4;
+  same.lead(1, Vec3::Zero(), angle * up, angle * up);
+  const Vec3 expected = same.bonding.stiffness / 2.4 * same.area() * angle * same.d.norm() * up.cross(axis);
+  EXPECT_LT((vec(same.force.force) - expected).norm(), 1e-3 * expected.norm());
+}
+
+TEST(BondLaw, ResistsTwistAndBending) {
+  for (const double angle : {3e-4, -2e-4}) {
+    Led twist, bend;
+    twist.lead(1, Vec3::Zero(), 0.25 * angle * axis, -0.75 * angle * axis);
+    EXPECT_LT((vec(twist.force.moment) + twist.bonding.stiffness / 2.4 * 2 * twist.inertia() * angle * axis).norm(),
+              1e-10 * std::abs(angle) * twist.bonding.stiffness * twist.inertia());
+    const Vec3 about = (2 * side - up).normalized();
+    bend.lead(1, Vec3::Zero(), angle * about, Vec3::Zero());
+    EXPECT_LT((vec(bend.force.moment) + bend.bonding.stiffness * bend.inertia() * angle * about).norm(),
+              1e-10 * std::abs(angle) * bend.bonding.stiffness * bend.inertia());
+  }
+}
+
+// What has been strained turns with the bond: through a right angle about an oblique axis, and about itself.
+TEST(BondLaw, TurnsWithTheGrains) {
+  Led led;
+  led.lead(1, 1e-5 * axis + 2e-6 * side - 1e-6 * up, 4e-4 * side + 1e-3 * axis, -2e-4 * up);
+  const Vec3 force = vec(led.force.force), moment = vec(led.force.moment);
+  const double stored = led.stored();
+  const Vec3 spin = bondPi / 2 * Vec3(-0.4, 0.5, 1.1).normalized() + 0.3 * axis;
+  const int steps = 20000;
+  const Eigen::AngleAxisd part(spin.norm() / steps, spin.normalized());
+  const BondKind kind = kindOf(led.bonding);
+  for (int k = 0; k < steps; ++k) {
+    const Vec3 next = part * led.d, velocity = (next - led.d) * steps;
+    led.d = next;
+    const BondMotion motion{v3(velocity), v3((ri + rj) * spin), v3(Vec3::Zero())};
+    led.force = stepBond<BondDamping::none, false>(kind, led.body, v3(led.d), 1 / (ri + rj), motion, motion, 1.0 / steps, led.memory);
+  }
+  const Eigen::AngleAxisd all(spin.norm(), spin.normalized());
+  EXPECT_LT((vec(led.force.force) - all * force).norm(), 1e-6 * force.norm());
+  EXPECT_LT((vec(led.force.moment) - all * moment).norm(), 1e-6 * moment.norm());
+  EXPECT_NEAR(led.stored(), stored, 1e-6 * stored);
+}
+
+TEST(BondLaw, StoresWhatIsSpentOnIt) {
+  Led led;
+  led.lead(1, 1e-5 * axis + 2e-5 * side, 3e-2 * side + 1e-2 * axis, -2e-2 * up, 4000);
+  EXPECT_NEAR(led.work, led.stored(), 1e-6 * led.stored());
+  const double most = led.stored();
+  led.lead(1, -1e-5 * axis - 2e-5 * side, -3e-2 * side - 1e-2 * axis, 2e-2 * up, 4000);
+  EXPECT_LT(led.stored(), 1e-12 * most);  // going back undoes it
+}
+
+// B4: each component loses or gains its share, whichever way it goes.
+TEST(BondLaw, PercentTakesAShareOfEachComponent) {
+  for (const double sign : {1.0, -1.0}) {
+    Led led, plain;
+    led.bonding.damping = BondDamping::percent;
+    led.bonding.dampingOf = {0.1, 0.2, 0.3, 0.4};
+    const Vec3 out = sign * (1e-6 * axis + 2e-7 * side), spin = sign * (1e-3 * axis + 2e-3 * up);
+    plain.lead(1, out, spin, Vec3::Zero());
+    led.lead<BondDamping::percent>(1, out, spin, Vec3::Zero());
+    const double shares[] = {vec(led.force.force).dot(axis) / vec(plain.force.force).dot(axis),
+                             vec(led.force.force).dot(side) / vec(plain.force.force).dot(side),
+                             vec(led.force.moment).dot(axis) / vec(plain.force.moment).dot(axis),
+                             vec(led.force.moment).dot(up) / vec(plain.force.moment).dot(up)};
+    const double expected[] = {1.1, 1.2, 1.3, 1.4};
+    for (int k = 0; k < 4; ++k) EXPECT_NEAR(shares[k], expected[k], 2e-3) << k;
+    EXPECT_GT(led.loss, 0);
+  }
+}
+
+// B5: held as it is, a bond forgets exponentially; what was stored is lost, no more and no less.
+TEST(BondLaw, ExponentialForgets) {
+  Led led;
+  led.bonding.damping = BondDamping::exponential;
+  led.bonding.dampingOf = {3, 5, 7, 2};
+  led.lead<BondDamping::exponential>(1e-6, 10 * axis + 0.4 * side, 900 * axis + 700 * side, Vec3::Zero());
+  const BondForce loaded = led.force;
+  const double work = led.work;
+  led.lead<BondDamping::exponential>(0.3, Vec3::Zero(), Vec3::Zero(), Vec3::Zero());
+  const auto left = [&](V3 now, V3 before, const Vec3& along) { return vec(now).dot(along) / vec(before).dot(along); };
+  const Vec3 n = led.d.normalized();
+  EXPECT_NEAR(left(led.force.force, loaded.force, n), std::exp(-0.9), 1e-5);
+  EXPECT_NEAR(left(led.force.moment, loaded.moment, n), std::exp(-2.1), 1e-5);
+  const Vec3 across = (side - side.dot(n) * n).normalized();
+  EXPECT_NEAR(left(led.force.force, loaded.force, across), std::exp(-1.5), 1e-5);
+  EXPECT_NEAR(left(led.force.moment, loaded.moment, across), std::exp(-0.6), 1e-5);
+  EXPECT_NEAR(work - led.loss, led.stored(), 1e-9 * work);
+}
+
+// B7–B10, with the stresses of Bond (13); in compression those of the far fibre.
+TEST(BondLaw, LoadIsTheWorstStressOverItsStrength) {
+  Bonding bonding;
+  const double r = 0.8e-3, area = bondPi * r * r, inertia = bondPi * std::pow(r, 4) / 4;
+  const double force = 3.0, bend = 1e-3, shear = 2.0, torsion = 5e-4;
+  const auto load = [&](BondStrength strength, double normal, double q, double t, double m) {
+    bonding.strength = strength;
+    return bondLoad(kindOf(bonding), r, normal, q * q, t, m * m, 1.25);
+  };
+  const double never = BondStrength::never, bent = bend * r / inertia, axial = force / area;
+  EXPECT_NEAR(load({2e6, never, never, 0, never}, -force, 0, 0, bend), (axial + bent) / 2e6, 1e-12);
+  EXPECT_NEAR(load({2e6, never, never, 0, never}, force, 0, 0, bend), (bent - axial) / 2e6, 1e-12);
+  EXPECT_LE(load({2e6, never, never, 0, never}, force, 0, 0, 0), 0);  // compression does not break by default: as printed, (13) would
+  EXPECT_NEAR(load({never, 5e6, never, 0, never}, force, 0, 0, bend), (axial + bent) / 5e6, 1e-12);
+  const double sliding = shear / area + torsion * r / (2 * inertia);
+  for (const double sign : {1.0, -1.0}) EXPECT_NEAR(load({never, never, 3e6, 0, never}, 0, shear, sign * torsion, 0), sliding / 3e6, 1e-12);
+  // Bond (ii) divides a stress by an area; the pressure itself is meant, and only pressure helps.
+  EXPECT_NEAR(load({never, never, 3e6, 0.6, never}, force, shear, torsion, 0), sliding / (3e6 + 0.6 * axial), 1e-12);
+  EXPECT_NEAR(load({never, never, 3e6, 0.6, never}, -force, shear, torsion, 0), sliding / 3e6, 1e-12);
+  EXPECT_NEAR(load({never, never, never, 0, 1.4}, 0, 0, 0, 0), 1.25 / 1.4, 1e-12);
+}
+
+}  // namespace
+}  // namespace tsubu::sim
