@@ -6,9 +6,6 @@
 #include "sim/kernel/lanes.h"
 #include "sim/laws/catalogue.h"
 
-// Structs of doubles are filled from columns, nested braces left out.
-#pragma GCC diagnostic ignored "-Wmissing-braces"
-
 // The contacts of a chunk do not depend on each other: the compiler need not check. (Not `omp simd`: GCC would give every lane its
 // own copy of the small structs of a law and then fail to vectorise them.)
 #if defined(__clang__)

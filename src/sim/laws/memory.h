@@ -54,6 +54,10 @@ struct GrowingScalarMemory {
 template <class T>
 inline constexpr int doublesIn = std::is_empty_v<T> ? 0 : static_cast<int>(sizeof(T) / sizeof(double));
 
+// The braces of nested structs are left out: the columns know nothing of them.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmissing-braces"
+
 /// A struct of doubles from columns: member k from column[first + k][q].
 template <class T, class Columns>
 TSUBU_INLINE T fromColumns(const Columns& columns, int first, int q) {
@@ -65,6 +69,8 @@ TSUBU_INLINE T fromColumns(const Columns& columns, int first, int q) {
     }(std::make_index_sequence<static_cast<std::size_t>(doublesIn<T>)>{});
   }
 }
+
+#pragma GCC diagnostic pop
 
 /// Most memory that any law keeps for a contact, in doubles.
 inline constexpr int mostMemory = 10;
