@@ -226,9 +226,9 @@ double Simulation::Impl::contactEnergyOf(std::size_t i, std::size_t j) const {
   for (std::size_t k = 0; kept && k < static_cast<std::size_t>(traits.stateSize); ++k) memory[k] = kept[k * stride];
   const LawFunctions& functions = lawFunctions(law);
   const double* const pair = constants.of(state.material[i] * model.materials.size() + state.material[j]);
-  const double springs = functions.stored(pair, contact, {model.timeStep, lead}, memory);
+  const double springs = functions.stored(pair, contact, stepOf(), memory);
   ContactEnergy now{};
-  functions.evaluate(pair, contact, {model.timeStep, lead}, memory, now);
+  functions.evaluate(pair, contact, stepOf(), memory, now);
   return now.storedNormal + springs;
 }
 

@@ -112,11 +112,11 @@ void considerMagnets(const Model& model, TimeStepChoice& choice) {
 void considerBonds(const Model& model, TimeStepChoice& choice) {
   const BondSwing swing = swingOfBonds(model);
   if (!(swing.stiffness > 0)) return;
-  double limit = stableStep({swing.stiffness, swing.damping}, model.integrator == Integrator::velocityVerlet, true);
+  double limit = stableStep({swing.stiffness, swing.damping}, model.integrator, true);
   bool both = false;
   for (const Bonding& bonding : model.bonds) both = both || bonding.contactBeyondRest;
   if (both) limit = 1 / std::sqrt(1 / (limit * limit) + 1 / (choice.limit * choice.limit));
-  if (limit < choice.limit) choice = {limit, fmt::format("stiffness of the bonds '{}'", swing.of)};
+  if (limit < choice.limit) choice = {limit, fmt::format("stiffness of the bonds '{}'", swing.of), {}};
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ Smallest smallestOf(const Model& model) {
 
 BondSwing swingOfBonds(const Model& model) {
   State state;
-  for (const Grain& grain : model.grains) state.add(grain, model.materials[grain.material].values[Property::density], Vec3::Zero());
+  for (const Grain& grain : model.grains) state.add(grain, model.materials[grain.material].values[Property::density], Vec3::Zero(), 0);
   const Periods periods(model.domain, model.periodic);
   const BondableGrains grains{state.rows, state.id, state.material, periods};
   std::vector<Swing> sum(state.size(), Swing{});
