@@ -29,6 +29,7 @@ class FieldCheck {
   // Every material that takes part in the exchange of heat must say how well it conducts, and those of grains how much they hold.
   void heat() {
     const auto lacks = [&](std::size_t material, sim::Property property, std::string_view who) {
+      if (material >= scene_.materials.size()) return;  // said by checkNames
       const Material& m = scene_.materials[material];
       if (m.properties[property]) return;
       complain({"materials", m.name}, fmt::format("Heat flows {} '{}', which has no {}.", who, m.name, sim::infoOf(property).key),
