@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include "core/error.h"
 #include "render/colour_map.h"
 
@@ -13,7 +15,7 @@ namespace {
 
 void require(bool present, std::string_view what, std::string_view why) {
   if (present) return;
-  throw Error(ErrorKind::scene, "The grains cannot be coloured by " + std::string(what) + ": " + std::string(why) + ".",
+  throw Error(ErrorKind::scene, fmt::format("The grains cannot be coloured by {}: {}.", what, why),
               "choose another colouring");
 }
 

@@ -324,6 +324,10 @@ void passWalls(const PassContext& context, int count, Stage& stage, Accounts& su
   if constexpr (accounts) addAccounts(count, stage, sums);
 }
 
+#ifndef TSUBU_EVERY_LAW
+#define TSUBU_EVERY_LAW false
+#endif
+
 // Laws that are not common are compiled once, for any processor and any number of classes: they are there for comparison.
 template <class Law, bool oneClass, bool accounts>
 inline constexpr bool hasKernel = objection<Law>.empty() && (Law::common || (TSUBU_EVERY_LAW && !oneClass && accounts));
