@@ -78,7 +78,7 @@ Legend legendOf(const Grains& style, const std::vector<double>& values) {
     case ColourBy::force:
       legend.quantity = "force", legend.unit = size < 1 ? "mN" : "N", legend.scale = size < 1 ? 1e-3 : 1;
       break;
-    case ColourBy::temperature: legend.quantity = "temperature", legend.unit = "K"; break;
+    case ColourBy::temperature: legend.quantity = "temperature", legend.unit.assign(1, 'K'); break;  // g++ 12 mistakes = "K"
     default: legend.quantity = "angular velocity", legend.unit = "rad/s"; break;
   }
   return legend;
