@@ -51,8 +51,8 @@ RungeKutta::Frame RungeKutta::frameOf(const GrainRow& a, const GrainRow& b) {
 
 // The normal of a face turns with the wall. That of an edge or corner also turns while the grain goes round it; what that does to a
 // memory is left to the kernel, as in the other schemes (T3).
-RungeKutta::Frame RungeKutta::frameOf(const GrainRow& row, const WallCandidate& candidate, const WallPlace& place) {
-  const V3 n = v3(candidate.normal), turning = v3(place.twist.angularVelocity);
+RungeKutta::Frame RungeKutta::frameOf(const GrainRow& row, const WallCandidate& candidate, const WallPlace& wall) {
+  const V3 n = v3(candidate.normal), turning = v3(wall.twist.angularVelocity);
   const V3 spin = 0.5 * (row.inverseRadius * row.surfaceSpin() + turning);
   return {n, cross(turning, n), dot(spin, n), candidate.touching};
 }

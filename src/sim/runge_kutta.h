@@ -66,7 +66,7 @@ class RungeKutta {
     bool touching;
   };
   static Frame frameOf(const GrainRow& a, const GrainRow& b);
-  static Frame frameOf(const GrainRow& row, const WallCandidate& candidate, const WallPlace& place);
+  static Frame frameOf(const GrainRow& row, const WallCandidate& candidate, const WallPlace& wall);
   void collectMemory(int stage, MemoryStages& memory, std::size_t first, std::size_t stride, const double* out, std::size_t outStride,
                      const Frame& frame, double dt) const;
   void collectPairs(int stage, const State& state, const SlabPairs& slab, MemoryStages& memory, double dt) const;
