@@ -18,6 +18,12 @@ struct SeenBond {
   double sinceBroken = -1; ///< s; negative: it holds
 };
 
+/// The normal force of a contact: between the centres of two grains, or from a grain's to where it touches a wall.
+struct SeenForce {
+  Vec3 first, second;  ///< m
+  double force = 0;    ///< N; positive when it repels
+};
+
 struct Snapshot {
   double time = 0;         ///< s
   std::uint64_t step = 0;  ///< steps taken so far
@@ -33,6 +39,7 @@ struct Snapshot {
   std::vector<double> load;              ///< N: sum of the normal contact forces on the grain; empty unless asked for
 
   std::vector<SeenBond> bonds;           ///< empty unless asked for
+  std::vector<SeenForce> forces;         ///< of all contacts; empty unless asked for
 
   std::vector<Pose> walls;               ///< one per visible wall, in the order of the scene
 

@@ -44,7 +44,7 @@ Box boundsOf(const Snapshot& snapshot, const std::vector<std::uint32_t>& drawabl
 Pose poseOf(const std::vector<Pose>& poses, std::size_t k) { return k < poses.size() ? poses[k] : Pose(); }
 
 Frame makeFrame(const Snapshot& snapshot, const Style& style, const std::vector<Wall>& walls, const Box& bounds, int side,
-                int shadowSize, int bondLook) {
+                int shadowSize, const FirstLooks& looks) {
   const int width = style.picture.width * side, height = style.picture.height * side;
   const std::vector<std::uint32_t> drawable = drawableGrains(snapshot);
   Frame frame;
@@ -56,8 +56,10 @@ Frame makeFrame(const Snapshot& snapshot, const Style& style, const std::vector<
   addGrains(frame, seen, snapshot, style);
   addWalls(frame, walls, snapshot.walls, style, side);
   const bool bonds = style.bonds.shown && !snapshot.bonds.empty();
-  if (bonds) addBonds(frame, snapshot.bonds, style, bondLook, side);
-  if (style.light.ambientOcclusion) addOcclusion(frame, seen, drawable, snapshot, walls, bonds);
+  const bool forces = style.forces.which != ShownForces::none && !snapshot.forces.empty();
+  if (bonds) addBonds(frame, snapshot.bonds, style, looks.bonds, side);
+  if (forces) addForces(frame, snapshot.forces, style, looks.forces, side);
+  if (style.light.ambientOcclusion) addOcclusion(frame, seen, drawable, snapshot, walls, bonds || forces);
   if (style.light.shadows) {
     const std::vector<ShadowDisc> discs = shadowDiscs(snapshot, drawable, frame.sun, shadowSize);
     frame.sunDiscCount = discs.size();

@@ -39,10 +39,14 @@ struct Frame {
   std::optional<Legend> legend;
 };
 
+/// Looks are numbered: those of the walls first, then those of what is drawn as bars, where it is shown.
+struct FirstLooks {
+  int bonds = 0, forces = 0;
+};
+
 /// `side`: samples along the side of a pixel; `shadowSize`: texels along the side of the shadow map.
-/// `bondLook`: number of the first look of bonds (looksOfBonds), when bonds are shown.
 Frame makeFrame(const Snapshot& snapshot, const Style& style, const std::vector<Wall>& walls, const Box& bounds, int side, int shadowSize,
-                int bondLook = 0);
+                const FirstLooks& looks = {});
 
 // The parts of makeFrame, each in a file of its own.
 
@@ -53,12 +57,14 @@ void addWalls(Frame& frame, const std::vector<Wall>& walls, const std::vector<Po
 void addBonds(Frame& frame, const std::vector<SeenBond>& bonds, const Style& style, int firstLook, int side);
 
 /// Bonds have looks as walls do: so many from unloaded to breaking, and one for the broken.
-inline constexpr int bondLooks = 64;
 std::vector<WallLook> looksOfBonds(const Bonds& style);
+
+/// The same for contact forces, of which there is at least one.
+void addForces(Frame& frame, const std::vector<SeenForce>& forces, const Style& style, int firstLook, int side);
 
 /// Fills neighbours and surroundings and writes their places into the records of the grains.
 void addOcclusion(Frame& frame, const std::vector<SeenGrain>& seen, const std::vector<std::uint32_t>& drawable, const Snapshot& snapshot,
-                  const std::vector<Wall>& walls, bool bonds);
+                  const std::vector<Wall>& walls, bool bars);
 
 /// Where wall number `k` is: at the origin when the snapshot does not say.
 Pose poseOf(const std::vector<Pose>& poses, std::size_t k);

@@ -35,9 +35,9 @@ void fade(Occluder& o, double radius) {
 
 class Occlusion {
  public:
-  /// `bonds`: are there any among the walls, which every grain may darken?
-  Occlusion(Frame& frame, const Snapshot& snapshot, const std::vector<Wall>& walls, bool bonds)
-      : frame_(frame), snapshot_(snapshot), bonds_(bonds) {
+  /// `bars`: are there any among the walls, which every grain may darken?
+  Occlusion(Frame& frame, const Snapshot& snapshot, const std::vector<Wall>& walls, bool bars)
+      : frame_(frame), snapshot_(snapshot), bars_(bars) {
     for (std::size_t k = 0; k < walls.size(); ++k) {
       if (walls[k].look.style == WallStyle::opaque) walls_.push_back({&walls[k], poseOf(snapshot.walls, k)});
     }
@@ -85,7 +85,7 @@ class Occlusion {
     }
     frame_.grains[record * 20 + 12] = static_cast<float>(first);
     frame_.grains[record * 20 + 13] = static_cast<float>(around.size());
-    if (!walls.empty() || bonds_) addSurroundings(grain);
+    if (!walls.empty() || bars_) addSurroundings(grain);
   }
 
  private:
@@ -114,7 +114,7 @@ class Occlusion {
 
   Frame& frame_;
   const Snapshot& snapshot_;
-  bool bonds_;
+  bool bars_;
   std::vector<PlacedWall> walls_;
   std::vector<Vec3> points_, nearest_;
 };
@@ -122,7 +122,7 @@ class Occlusion {
 }  // namespace
 
 void addOcclusion(Frame& frame, const std::vector<SeenGrain>& seen, const std::vector<std::uint32_t>& drawable, const Snapshot& snapshot,
-                  const std::vector<Wall>& walls, bool bonds) {
+                  const std::vector<Wall>& walls, bool bars) {
   std::vector<Vec3> centres;
   std::vector<double> radii;
   std::vector<std::uint32_t> place(snapshot.grains());
@@ -132,7 +132,7 @@ void addOcclusion(Frame& frame, const std::vector<SeenGrain>& seen, const std::v
     radii.push_back(snapshot.radius[k]);
   }
   const NeighbourGrid grid(centres, radii);
-  Occlusion occlusion(frame, snapshot, walls, bonds);
+  Occlusion occlusion(frame, snapshot, walls, bars);
   std::vector<Occluder> around;
   for (std::size_t record = 0; record < seen.size(); ++record) {
     const std::uint32_t k = seen[record].index;

@@ -42,23 +42,13 @@ std::vector<double> valuesOf(const Grains& style, const Snapshot& snapshot) {
   return values;
 }
 
-/// 1, 1.5, 2, 3, 5 or 7 times a power of ten, not below `value`: a range that seldom jumps from frame to frame.
-double roundedUp(double value) {
-  const double power = std::pow(10, std::floor(std::log10(value)));
-  for (const double step : {1.0, 1.5, 2.0, 3.0, 5.0, 7.0}) {
-    if (step * power >= value) return step * power;
-  }
-  return 10 * power;
-}
-
 Range rangeOf(ColourBy by, const std::vector<double>& values) {
   double low = INFINITY, high = 0;
   for (const double v : values) {
     if (!std::isfinite(v)) continue;
     low = std::min(low, v), high = std::max(high, v);
   }
-  if (!(high > 0)) return {0, 1};
-  if (by != ColourBy::radius && by != ColourBy::temperature) return {0, roundedUp(high)};
+  if (!(high > 0) || (by != ColourBy::radius && by != ColourBy::temperature)) return rangeUpTo(high);
   return low < high ? Range{low, high} : Range{0.5 * low, 1.5 * high};
 }
 
@@ -85,6 +75,16 @@ Legend legendOf(const Grains& style, const std::vector<double>& values) {
 }
 
 }  // namespace
+
+// 1, 1.5, 2, 3, 5 or 7 times a power of ten.
+Range rangeUpTo(double largest) {
+  if (!(largest > 0)) return {0, 1};
+  const double power = std::pow(10, std::floor(std::log10(largest)));
+  for (const double step : {1.0, 1.5, 2.0, 3.0, 5.0, 7.0}) {
+    if (step * power >= largest) return {0, step * power};
+  }
+  return {0, 10 * power};
+}
 
 GrainColours grainColours(const Grains& style, const Snapshot& snapshot) {
   GrainColours result;

@@ -24,6 +24,9 @@ struct GrainColours {
   std::optional<Legend> legend;  ///< when the colour shows a quantity
 };
 
+/// N or m/s …: from 0 to a round number not below `largest`, which seldom jumps from frame to frame.
+Range rangeUpTo(double largest);
+
 /// Throws Error(scene) when the snapshot does not hold what the colours shall show.
 GrainColours grainColours(const Grains& style, const Snapshot& snapshot);
 

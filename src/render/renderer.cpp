@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "render/check.h"
 #include "render/colour_map.h"
-#include "render/frame.h"
+#include "render/frame_bars.h"
 #include "render/overlay.h"
 #include "render/painter.h"
 
@@ -34,9 +34,8 @@ class Renderer::Impl {
       if (isNew) looks_.push_back(wall.look);
       walls_.push_back({WallModel(wall.mesh), wall.look, at->second});
     }
-    bondLook_ = static_cast<int>(looks_.size());
-    if (style_.bonds.shown)
-      for (const WallLook& look : looksOfBonds(style_.bonds)) looks_.push_back(look);
+    if (style_.bonds.shown) first_.bonds = addLooks(looksOfBonds(style_.bonds));
+    if (style_.forces.which != ShownForces::none) first_.forces = addLooks(looksOfBars(style_.forces.map));
     if (looks_.size() > Painter::mostLooks) {
       throw Error(ErrorKind::scene, "The walls have more different colours than the renderer can tell apart (2048).");
     }
@@ -46,7 +45,7 @@ class Renderer::Impl {
   Image draw(const Snapshot& snapshot) {
     const bool asIs = style_.grains.shown && style_.grains.scale == 1;
     const Frame frame = makeFrame(asIs ? snapshot : shownOf(snapshot, style_.grains), style_, walls_, bounds_, painter_->side(),
-                                  painter_->shadowSize(), bondLook_);
+                                  painter_->shadowSize(), first_);
     Image image = painter_->paint(frame, upOf(style_.camera, snapshot.time));
     drawOverlay(image, style_, snapshot.time, frame.legend);
     return image;
@@ -56,11 +55,17 @@ class Renderer::Impl {
   const std::string& description() const { return painter_->description(); }
 
  private:
+  int addLooks(const std::vector<WallLook>& more) {
+    const auto first = static_cast<int>(looks_.size());
+    looks_.insert(looks_.end(), more.begin(), more.end());
+    return first;
+  }
+
   Style style_;
   Box bounds_;
   std::vector<Wall> walls_;
   std::vector<WallLook> looks_;
-  int bondLook_ = 0;
+  FirstLooks first_;
   std::unique_ptr<Painter> painter_;
 };
 

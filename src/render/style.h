@@ -167,6 +167,21 @@ struct Bonds {
   bool operator==(const Bonds&) const = default;
 };
 
+/// Which contact forces are drawn: those above the mean are the force chains.
+enum class ShownForces { none, chains, all };
+inline constexpr std::array<Word<ShownForces>, 3> shownForcesWords{
+    {{"none", ShownForces::none}, {"chains", ShownForces::chains}, {"all", ShownForces::all}}};
+
+/// Contact forces as bars from centre to centre, as thick as the force is large.
+struct Forces {
+  ShownForces which = ShownForces::none;
+  ColourMap map = ColourMap::batlow;
+  std::optional<Range> range;  ///< N; without it each frame has its own
+  double radius = 0;           ///< m: of the bar for the upper end of the range
+
+  bool operator==(const Forces&) const = default;
+};
+
 struct Grains {
   bool shown = true;
   double scale = 1;  ///< drawn radius over the radius
@@ -219,6 +234,7 @@ struct Style {
   Camera camera;
   Grains grains;
   Bonds bonds;
+  Forces forces;
   Overlay overlay;
 
   bool operator==(const Style&) const = default;

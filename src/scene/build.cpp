@@ -156,7 +156,8 @@ sim::Model buildModel(const Scene& scene) {
   model.ledger = s.ledger;
   if (!scene.bonds.empty() && scene.show.bonds) model.showBonds = brokenFor(scene);
   model.load = scene.colours.by == render::ColourBy::force;
-  model.contactForces = scene.diagnostics.has_value();
+  model.showForces = scene.show.forces != render::ShownForces::none;
+  model.contactForces = scene.diagnostics.has_value() || model.showForces;
   model.watch = {s.overlapLimit, s.travelLimit, s.onViolation == OnViolation::stop};
   model.seed = s.seed;
   return model;
@@ -197,12 +198,13 @@ render::Style buildStyle(const Scene& scene) {
   style.camera = scene.camera;
   style.grains = scene.colours;
   style.grains.shown = scene.show.grains;
-  style.grains.scale = scene.show.grainScale;
+  style.grains.scale = scene.show.grainScale.value_or(scene.show.forces == render::ShownForces::none ? 1 : 0.25);
   style.bonds.shown = !scene.bonds.empty() && scene.show.bonds;
   style.bonds.map = scene.show.bondMap;
   style.bonds.range = scene.show.bondRange;
   style.bonds.scale = scene.show.bondScale;
   style.bonds.brokenFor = brokenFor(scene);
+  style.forces = {scene.show.forces, scene.show.forceMap, scene.show.forceRange, scene.show.forceRadius.value_or(0)};
   std::size_t given = 0;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     if (scene.materials[i].colour) given = i + 1;
@@ -328,6 +330,7 @@ Built build(const Scene& scene) {
   built.plan = planFrames(scene, built.model, expectedSpeed(built.model, built.bounds, scene.simulation.end), built.warnings);
   built.model.timeStep = built.plan.timeStep;
   built.style = buildStyle(scene);
+  if (!scene.show.forceRadius) built.style.forces.radius = 0.5 * smallestRadius(built.model);
   return built;
 }
 

@@ -211,6 +211,11 @@ class ValueCheck {
       }
     }
     const bool quantity = scene_.colours.by != render::ColourBy::uniform && scene_.colours.by != render::ColourBy::material;
+    const Show& show = scene_.show;
+    if (show.forceRange && show.forceRange->low < 0)
+      complain({"show", "force_range"}, fmt::format("The forces that are drawn press: none is {} N.", show.forceRange->low), "begin at 0");
+    if ((show.forceRange || show.forceRadius) && show.forces == render::ShownForces::none)
+      warn({"show", show.forceRange ? "force_range" : "force_radius"}, "No forces are drawn.", "write forces = \"chains\" or \"all\"");
     if (scene_.colours.range && !quantity) warn({"colours", "range"}, "The colours show no quantity: their range has no effect.", "see by");
   }
 

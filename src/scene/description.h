@@ -277,13 +277,18 @@ struct Diagnostics {
   bool operator==(const Diagnostics&) const = default;
 };
 
-/// What of grains and bonds is drawn.
+/// What of grains, bonds and forces is drawn.
 struct Show {
   bool grains = true, bonds = true;
-  double grainScale = 1, bondScale = 1;
+  std::optional<double> grainScale;  ///< absent: 1, or, where forces are drawn, so small that they are seen
+  double bondScale = 1;
   render::ColourMap bondMap = render::ColourMap::batlow;
   std::optional<render::Range> bondRange;
   std::optional<double> brokenFor;  ///< s; absent: a third of a second of film
+  render::ShownForces forces = render::ShownForces::none;
+  render::ColourMap forceMap = render::ColourMap::batlow;
+  std::optional<render::Range> forceRange;
+  std::optional<double> forceRadius;  ///< m; absent: half the radius of the smallest grain
 
   bool operator==(const Show&) const = default;
 };

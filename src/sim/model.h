@@ -105,6 +105,7 @@ struct Model {
   bool ledger = true;                    ///< keep the energy ledger
   std::optional<double> showBonds;       ///< snapshots carry the bonds, and broken ones for so long (s); absent: no bonds
   bool load = false;                     ///< snapshots carry the sum of contact forces on each grain
+  bool showForces = false;               ///< snapshots carry the forces of contacts; needs `contactForces`
   bool contactForces = false;            ///< an Instant may be asked for: contact forces are noted when somebody looks
   Watch watch;
   std::uint64_t seed = 1;

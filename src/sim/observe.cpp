@@ -284,6 +284,7 @@ void Simulation::Impl::fill(Snapshot& snapshot) {
   }
   for (const WallPlace& place : walls.places()) snapshot.walls.push_back(place.pose);
   for (const auto& pass : passes) pass->show(world(time(), model.timeStep), snapshot);
+  if (model.showForces) showForces(snapshot);
 }
 
 // Contacts in any order: the hash of each, keyed by its two ids and seen from the lower one, added up.

@@ -159,6 +159,7 @@ class Simulation::Impl {
   /// J: in the contact of two grains that touches at the sum of their radii.
   double contactEnergyOf(std::size_t i, std::size_t j) const;
   void addLoads(std::vector<double>& load) const;
+  void showForces(Snapshot& snapshot) const;
   std::uint64_t contactHash() const;
 
   bool warnedOverlap_ = false, warnedTravel_ = false, warnedLightWall_ = false;

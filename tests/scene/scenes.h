@@ -224,6 +224,10 @@ bond_scale = 0.7
 bond_map = "batlow"
 bond_range = [0, 0.5]
 broken_for = "1 ms"
+forces = "chains"
+force_map = "viridis"
+force_range = [0, "2 N"]
+force_radius = "1 mm"
 [output]
 fps = "25 fps"
 frame_interval = "4 ms"

@@ -35,4 +35,14 @@ Instant Simulation::Impl::instantNow() {
   return instant;
 }
 
+void Simulation::Impl::showForces(Snapshot& snapshot) const {
+  for (const std::vector<ActingContact>& slab : acting) {
+    for (const ActingContact& contact : slab) {
+      const GrainRow& row = state.rows[static_cast<std::size_t>(contact.first)];
+      const Vec3 centre = periods.wrapped(Vec3(row.x, row.y, row.z));
+      snapshot.forces.push_back({centre, centre - contact.branch, contact.normalForce()});
+    }
+  }
+}
+
 }  // namespace tsubu::sim

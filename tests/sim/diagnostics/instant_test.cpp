@@ -283,5 +283,33 @@ TEST(Instant, MomentaAndEnergiesOfTheLedgerAreSumsOverGrains) {
   EXPECT_NEAR(survey(instant, boxAround(instant)).motion.temperature, 2 * fluctuation / (3 * mass), 1e-12);
 }
 
+// What pictures show of forces are these contacts, from centre to centre or to the wall, and only when asked for.
+TEST(Instant, SnapshotsCarryItsContacts) {
+  Scenario scenario = crowd(Integrator::velocityVerlet, lawsToSee[0]);
+  scenario.model.showForces = true;
+  Simulation sim = scenario.start(2e-6);
+  sim.advance(3000);
+  const Snapshot snapshot = look(sim);
+  const Instant instant = sim.instant();
+  ASSERT_GT(instant.contacts.size(), 10u);
+  ASSERT_EQ(snapshot.forces.size(), instant.contacts.size());
+  int walls = 0;
+  for (std::size_t k = 0; k < instant.contacts.size(); ++k) {
+    const ActingContact& contact = instant.contacts[k];
+    const SeenForce& seen = snapshot.forces[k];
+    const Vec3 first = instant.grains[static_cast<std::size_t>(contact.first)].position;
+    const Vec3 second = contact.withWall() ? instant.contactPoint(contact) : instant.grains[static_cast<std::size_t>(contact.second)].position;
+    walls += contact.withWall() ? 1 : 0;
+    EXPECT_LT((seen.first - first).norm() + (seen.second - second).norm(), 1e-15);
+    EXPECT_EQ(seen.force, contact.normalForce());
+  }
+  EXPECT_GT(walls, 3);
+  scenario.model.showForces = false;
+  Simulation unseen = scenario.start(2e-6);
+  unseen.advance(3000);
+  EXPECT_TRUE(look(unseen).forces.empty());
+  EXPECT_EQ(unseen.stateHash(), sim.stateHash());
+}
+
 }  // namespace
 }  // namespace tsubu::sim::test
