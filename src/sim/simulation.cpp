@@ -16,8 +16,8 @@ namespace tsubu::sim {
 
 namespace {
 
-// The watch needs accounts; without a ledger it looks only so often. An overlap lasts for tens of steps.
-constexpr std::uint64_t watchEvery = 16;
+// The watch needs accounts; without a ledger it looks only so often. What goes wrong for good is seen a little later.
+constexpr std::uint64_t watchEvery = 64;
 
 // Neighbour lists: skins in terms of how far the fastest grain moves in a step, bounded in terms of the smallest radius.
 constexpr double outerSteps = 120, innerSteps = 6;

@@ -5,7 +5,8 @@
 namespace tsubu::sim {
 
 ActingContact contactIn(const Stage& s, int q, std::int32_t first, std::int32_t second, bool rolls) {
-  return {first, second, Vec3(s.dx[q], s.dy[q], s.dz[q]), Vec3(s.fx[q], s.fy[q], s.fz[q]),
+  const double distance = s.radiusSum[q] - s.overlap[q];  // the kernel has left the direction in (dx, dy, dz)
+  return {first, second, distance * Vec3(s.dx[q], s.dy[q], s.dz[q]), Vec3(s.fx[q], s.fy[q], s.fz[q]),
           rolls ? Vec3(s.mx[q], s.my[q], s.mz[q]) : Vec3(Vec3::Zero())};
 }
 
@@ -18,7 +19,7 @@ void passNoting(PairKernel kernel, const PassContext& context, const PairRange& 
     chunk.count = std::min<std::int64_t>(chunkSize, range.count - first);
     kernel(context, chunk, stage, accounts);
     for (int q = 0; q < static_cast<int>(chunk.count); ++q)
-      if (norm(V3{stage.dx[q], stage.dy[q], stage.dz[q]}) < stage.radiusSum[q]) acting.push_back(contactIn(stage, q, chunk.i[q], chunk.j[q], rolls));
+      if (stage.overlap[q] > 0) acting.push_back(contactIn(stage, q, chunk.i[q], chunk.j[q], rolls));
   }
 }
 

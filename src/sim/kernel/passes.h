@@ -133,6 +133,54 @@ TSUBU_INLINE void memoryToColumns(typename Law::Memory& memory, bool kept, doubl
   memory.twisting.each(put);
 }
 
+/// Directions, overlaps and effective masses, over what they are made of. A loop of its own: with the law behind it in one loop the
+/// chain of dependent operations is longer than what a processor looks ahead, and it waits for each contact.
+template <class Law>
+void findDirections(int count, Stage& s) {
+  TSUBU_INDEPENDENT
+  for (int q = 0; q < count; ++q) {
+    const V3 d{s.dx[q], s.dy[q], s.dz[q]};
+    const double distance = norm(d), safeDistance = larger(distance, tiny);
+    // One division for three reciprocals: divisions and roots are what this loop waits for.
+    double reciprocal = 1;
+    if constexpr (Law::readsRadius) {
+      const double all = 1 / (safeDistance * s.radiusSum[q] * s.inverseMassSum[q] * s.inverseRadiusSum[q]);
+      reciprocal = all * s.inverseRadiusSum[q];
+      s.effectiveRadius[q] = all * (safeDistance * s.radiusSum[q] * s.inverseMassSum[q]);
+    } else {
+      reciprocal = 1 / (safeDistance * s.radiusSum[q] * s.inverseMassSum[q]);
+    }
+    const double perDistance = reciprocal * s.radiusSum[q] * s.inverseMassSum[q];
+    s.effectiveMass[q] = reciprocal * safeDistance * s.radiusSum[q];
+    if constexpr (Law::turns) {
+      const double perRadiusSum = reciprocal * safeDistance * s.inverseMassSum[q];
+      s.perRadiusSum[q] = perRadiusSum;
+      s.arm[q] = distance * perRadiusSum;
+    }
+    s.overlap[q] = s.radiusSum[q] - distance;
+    s.dx[q] = perDistance * d.x, s.dy[q] = perDistance * d.y, s.dz[q] = perDistance * d.z;
+  }
+}
+
+/// Velocities along the normal and across it, over the relative velocities.
+template <class Law, bool weighted>
+void findSlip(int count, Stage& s) {
+  TSUBU_INDEPENDENT
+  for (int q = 0; q < count; ++q) {
+    const V3 n{s.dx[q], s.dy[q], s.dz[q]}, dv{s.dvx[q], s.dvy[q], s.dvz[q]};
+    const double separationSpeed = dot(dv, n);
+    s.separationSpeed[q] = separationSpeed;
+    if constexpr (Law::turns) {
+      const V3 spin{s.sx[q], s.sy[q], s.sz[q]};
+      const V3 slip = dv - separationSpeed * n - s.arm[q] * cross(spin, n);
+      s.dvx[q] = slip.x, s.dvy[q] = slip.y, s.dvz[q] = slip.z;
+      // Between grains the mean is weighted with the radii, which the sum of r ω gives for nothing; any mean turns with the pair.
+      const V3 frameSpin = weighted ? V3{s.ox[q], s.oy[q], s.oz[q]} : s.perRadiusSum[q] * spin;
+      s.frameSpin[q] = dot(frameSpin, n);
+    }
+  }
+}
+
 /// The law on every contact of the chunk. `memory` points to the columns of the contacts' memory.
 template <class Law, bool oneClass, bool accounts, bool weighted>
 void compute(const PassContext& context, int count, Stage& s, double* const* memory) {
@@ -141,40 +189,24 @@ void compute(const PassContext& context, int count, Stage& s, double* const* mem
     std::memcpy(&only, context.pairs, sizeof only);
   else
     gatherConstants<Law>(context, count, s);
+  findDirections<Law>(count, s);
+  findSlip<Law, weighted>(count, s);
   const StepOf step = context.step;
   double* columns[mostMemory];
   for (int k = 0; k < mostMemory; ++k) columns[k] = k < Law::stateSize ? memory[k] : nullptr;
   TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) {
-    const V3 d{s.dx[q], s.dy[q], s.dz[q]};
-    const double distance = norm(d);
-    const bool touching = distance < s.radiusSum[q];
-    // One division for three reciprocals: divisions and roots are what this loop waits for.
-    const double safeDistance = larger(distance, tiny);
     Contact c;
-    double reciprocal = 1;
-    if constexpr (Law::readsRadius) {
-      const double all = 1 / (safeDistance * s.radiusSum[q] * s.inverseMassSum[q] * s.inverseRadiusSum[q]);
-      reciprocal = all * s.inverseRadiusSum[q];
-      c.effectiveRadius = all * (safeDistance * s.radiusSum[q] * s.inverseMassSum[q]);
-    } else {
-      reciprocal = 1 / (safeDistance * s.radiusSum[q] * s.inverseMassSum[q]);
-    }
-    c.n = (reciprocal * s.radiusSum[q] * s.inverseMassSum[q]) * d;
-    c.overlap = s.radiusSum[q] - distance;
-    const V3 dv{s.dvx[q], s.dvy[q], s.dvz[q]};
-    c.separationSpeed = dot(dv, c.n);
-    c.effectiveMass = reciprocal * safeDistance * s.radiusSum[q];
+    c.n = {s.dx[q], s.dy[q], s.dz[q]};
+    c.overlap = s.overlap[q];
+    const bool touching = c.overlap > 0;
+    c.separationSpeed = s.separationSpeed[q];
+    c.effectiveMass = s.effectiveMass[q];
     c.inverseEffectiveMass = s.inverseMassSum[q];
-    double arm = 0;
+    if constexpr (Law::readsRadius) c.effectiveRadius = s.effectiveRadius[q];
     if constexpr (Law::turns) {
-      const double inverseRadiusSum = reciprocal * safeDistance * s.inverseMassSum[q];
-      arm = distance * inverseRadiusSum;
-      const V3 spin{s.sx[q], s.sy[q], s.sz[q]};
-      c.slip = dv - c.separationSpeed * c.n - arm * cross(spin, c.n);
-      // Between grains the mean is weighted with the radii, which the sum of r ω gives for nothing; any mean turns with the pair.
-      const V3 frameSpin = weighted ? V3{s.ox[q], s.oy[q], s.oz[q]} : inverseRadiusSum * spin;
-      c.frameAngle = step.turning * dot(frameSpin, c.n);
+      c.slip = {s.dvx[q], s.dvy[q], s.dvz[q]};
+      c.frameAngle = step.turning * s.frameSpin[q];
     }
     if constexpr (Law::rolls) {
       c.relativeSpin = {s.rx[q], s.ry[q], s.rz[q]};
@@ -190,9 +222,9 @@ void compute(const PassContext& context, int count, Stage& s, double* const* mem
     s.fy[q] = touching ? share * result.force.y : 0;
     s.fz[q] = touching ? share * result.force.z : 0;
     if constexpr (Law::turns) {
-      s.qx[q] = touching ? share * (arm * result.couple.x) : 0;
-      s.qy[q] = touching ? share * (arm * result.couple.y) : 0;
-      s.qz[q] = touching ? share * (arm * result.couple.z) : 0;
+      s.qx[q] = touching ? share * (s.arm[q] * result.couple.x) : 0;
+      s.qy[q] = touching ? share * (s.arm[q] * result.couple.y) : 0;
+      s.qz[q] = touching ? share * (s.arm[q] * result.couple.z) : 0;
     }
     if constexpr (Law::rolls) {
       s.mx[q] = touching ? share * result.moment.x : 0;

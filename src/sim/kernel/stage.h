@@ -17,7 +17,7 @@ inline constexpr int mostConstants = 16;
 struct alignas(64) Stage {
   using Column = double[chunkSize];
 
-  // In, for every law: differences i − j and sums i + j of the two rows.
+  // In, for every law: differences i − j and sums i + j of the two rows. (dx, dy, dz) becomes the direction n.
   Column dx, dy, dz, radiusSum;
   Column dvx, dvy, dvz, inverseMassSum;
   // In, for laws with friction.
@@ -33,6 +33,11 @@ struct alignas(64) Stage {
   // In, when there is more than one class of pairs: row × column of the materials, and the constants of that pair.
   std::int32_t pairClass[chunkSize];
   Column constants[mostConstants];
+
+  // On the way.
+  Column overlap, effectiveMass, effectiveRadius;
+  Column separationSpeed, frameSpin;
+  Column perRadiusSum, arm;  // 1/(r_i + r_j); distance over that sum, the share of its radius at which each grain is touched
 
   // Out: force on i, couple (same on both), moment on i.
   Column fx, fy, fz, qx, qy, qz, mx, my, mz;

@@ -29,13 +29,15 @@ struct StepOf {
   double perSecond = 1 / dt;  ///< kernels multiply rather than divide
   double turning = dt;        ///< s: for how long memories turn about n (0 where the integrator turns them itself)
   double mean = 0.5;          ///< share of a step's stretching in the spring force that its work is taken with (0: the force as it is)
+  double cubed = lead > 0 && lead < 1 ? dt * dt * dt : 0;  ///< s³, for `quieting`; 0 where nothing needs it. A choice made here: inside
+                                                           ///< the loop over contacts a condition of the step alone keeps g++ from vectors
 };
 
 /// T6: a dashpot of this ratio c/k (s) keeps the tangential and rolling springs of velocity Verlet from gaining energy. They are
 /// stretched by velocities carried on by half a step (I2) and lag a little behind, and a lag gives an oscillation W⁴/4 of its energy
 /// per step, W = ω Δt. The dashpot takes away W_c² W², with W_c = Δt √(k/m) of the contact alone. Of third order in Δt.
 TSUBU_INLINE double quieting(double stiffnessOverMass, StepOf step) {
-  return step.lead > 0 && step.lead < 1 ? stiffnessOverMass * step.dt * step.dt * step.dt : 0;
+  return stiffnessOverMass * step.cubed;
 }
 
 /// One way in which a contact can swing, for the time step: ω² in 1/s², and what its dashpot does, 2ζω in 1/s.

@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+"""Are the loops over contacts vector code? A compiler that gives up on one says nothing, and the program is only several times slower.
+
+usage: kernels_are_vectors.py OBJDUMP OBJECT...
+
+OBJECT: what a kernel file was compiled to, with the name of its instruction set (kernel_avx2.cpp.o, kernel_avx512.cpp.o). Every pass over
+contacts must have a fair share of operations on whole vectors of that width: those on single numbers are for the contacts that
+are left over at the end of a loop, and every loop has both.
+"""
+
+import re
+import subprocess
+import sys
+
+WIDTH = {"avx2": "ymm", "avx512": "zmm"}
+LEAST = 0.2  # operations on vectors over operations on numbers: g++ writes the rest of a loop out up to four times
+
+
+def scalar_passes(objdump, file, register):
+    """The passes of an object file that are not vector code, and how many passes there are."""
+    listing = subprocess.run([objdump, "-d", "-C", "--no-show-raw-insn", file], capture_output=True, text=True, check=True).stdout
+    operations = {}
+    name = None
+    for line in listing.splitlines():
+        if head := re.match(r"[0-9a-f]+ <(.*)>:$", line):
+            name = head[1] if re.search(r"\b(passPairs|passWalls|passBonds|findDirections|findSlip)<", head[1]) else None
+            if name:
+                operations[name] = [0, 0]
+        elif name and re.search(rf"\bv(mul|add|sub|div|sqrt)pd\b.*{register}", line):
+            operations[name][0] += 1
+        elif name and re.search(r"\bv(mul|add|sub|div|sqrt)sd\b", line):
+            operations[name][1] += 1
+    return [(name, *count) for name, count in operations.items() if count[0] < LEAST * count[1]], len(operations)
+
+
+def main(objdump, *files):
+    failed = False
+    for file in files:
+        isa = next((isa for isa in WIDTH if f"kernel_{isa}." in file), None)
+        if not isa:
+            continue
+        scalar, passes = scalar_passes(objdump, file, WIDTH[isa])
+        print(f"{isa}: {passes} passes, {len(scalar)} of them scalar")
+        for name, vectors, numbers in scalar:
+            print(f"  {vectors} on vectors, {numbers} on numbers:", name.replace("tsubu::sim::", "").replace("(anonymous namespace)::", ""))
+        failed = failed or scalar or passes == 0
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
