@@ -10,6 +10,7 @@
 
 #include "app/messages.h"
 #include "app/run.h"
+#include "app/tradeoff.h"
 #include "app/version.h"
 #include "core/error.h"
 #include "scene/build.h"
@@ -25,25 +26,40 @@ struct Commands {
   CLI::App* explain;
   CLI::App* check;
   CLI::App* reference;
+  CLI::App* tradeoff;
 };
 
-void addSceneOptions(CLI::App& command, RunOptions& options) {
-  command.add_option("SCENE", options.scene, "Scene file (TOML)")->required();
-  command.add_option("--set", options.overrides, "Override a value: path.to.key=value (may be given several times)")
+void addSceneOptions(CLI::App& command, std::string& scene, scene::Overrides& overrides) {
+  command.add_option("SCENE", scene, "Scene file (TOML)")->required();
+  command.add_option("--set", overrides, "Override a value: path.to.key=value (may be given several times)")
       ->take_all()
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
 }
 
-Commands describe(CLI::App& app, RunOptions& options) {
+void addTradeoffOptions(CLI::App& command, TradeoffOptions& options) {
+  addSceneOptions(command, options.scene, options.overrides);
+  command.add_option("-o,--output", options.folder, "Folder for the study (out/NAME.tradeoff when not given)")->type_name("DIR");
+  command.add_option("--axes", options.axes, "What to turn: step, stiffness, integrator, grains, law, memory, rolling, skin (all when not given)")
+      ->delimiter(',');
+  command.add_flag("--features", options.features, "Switch features off instead: which of them does the scene notice?");
+  command.add_option("--budget", options.budget, "Time for all trials: 90s, 10m, 1h (10m when not given)");
+  command.add_option("--seeds", options.seeds, "Trials of each setting (3 when not given)")->check(CLI::Range(1, 1000));
+  command.add_option("--until", options.until, "End trials at this time instead of the scene's");
+  command.add_option("--threads", options.threads, "Trials at a time (all cores when not given)")->check(CLI::Range(1, 1024));
+}
+
+Commands describe(CLI::App& app, RunOptions& options, TradeoffOptions& study) {
   app.set_version_flag("--version", fmt::format("tsubu {}", version));
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::help);
   Commands commands{app.add_subcommand("run", "Simulate a scene and write its film"),
                     app.add_subcommand("explain", "Print the plan of a scene: what is modelled, what it costs"),
                     app.add_subcommand("check", "Validate a scene and its files, and run nothing"),
-                    app.add_subcommand("reference", "Print the reference of scene files (Markdown)")};
-  for (CLI::App* command : {commands.run, commands.explain, commands.check}) addSceneOptions(*command, options);
+                    app.add_subcommand("reference", "Print the reference of scene files (Markdown)"),
+                    app.add_subcommand("tradeoff", "Measure what speed costs in accuracy: the scene at many settings")};
+  for (CLI::App* command : {commands.run, commands.explain, commands.check}) addSceneOptions(*command, options.scene, options.overrides);
+  addTradeoffOptions(*commands.tradeoff, study);
   commands.run->add_option("-o,--output", options.folder, "Folder for the results (out/NAME when not given)")->type_name("DIR");
   commands.run->add_option("--threads", options.threads, "Threads of the simulation; the results do not depend on it (all cores when not given)")
       ->check(CLI::Range(1, 1024));
@@ -53,7 +69,8 @@ Commands describe(CLI::App& app, RunOptions& options) {
   return commands;
 }
 
-int execute(const Commands& commands, const RunOptions& options) {
+int execute(const Commands& commands, const RunOptions& options, const TradeoffOptions& study) {
+  if (*commands.tradeoff) return tradeoff(study);
   if (*commands.run) return run(options);
   if (*commands.reference) {
     fmt::print("{}", scene::writeReference());
@@ -76,10 +93,11 @@ int execute(const Commands& commands, const RunOptions& options) {
 int mainOf(int argc, char** argv) {
   CLI::App app("tsubu: films of granular flow from a text scene, off screen", "tsubu");
   RunOptions options;
-  const Commands commands = describe(app, options);
+  TradeoffOptions study;
+  const Commands commands = describe(app, options, study);
   try {
     app.parse(argc, argv);
-    return execute(commands, options);
+    return execute(commands, options, study);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::scene);
   } catch (const Error& error) {

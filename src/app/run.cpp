@@ -21,6 +21,7 @@
 #include "io/text_file.h"
 #include "scene/build.h"
 #include "sim/kernel/kernels.h"
+#include "study/observer.h"
 
 namespace tsubu::app {
 
@@ -52,6 +53,7 @@ class Run {
   std::unique_ptr<sim::Simulation> simulation_;
   std::unique_ptr<LedgerFile> ledger_;
   std::unique_ptr<DiagnosticsFiles> diagnostics_;
+  std::unique_ptr<study::Observer> observer_;
   std::unique_ptr<Film> film_;
 };
 
@@ -95,6 +97,7 @@ Run::Run(const RunOptions& options) : options_(options) {
   columns.bonds = report_.bonds = !built.model.bonds.empty();
   ledger_ = std::make_unique<LedgerFile>(folder_ / "ledger.csv", columns);
   if (scene.diagnostics) diagnostics_ = std::make_unique<DiagnosticsFiles>(folder_, *scene.diagnostics, std::move(walls));
+  if (!scene.observe.empty()) observer_ = std::make_unique<study::Observer>(scene, scene.observe);
   simulation_ = std::make_unique<sim::Simulation>(std::move(built.model), report_.threads);
 }
 
@@ -136,7 +139,9 @@ void Run::loop() {
   for (;;) {
     const std::uint64_t step = sim.steps();
     const bool last = step >= plan.steps;
-    if (step % plan.stepsPerLedgerRow == 0 || last) ledger_->add(sim, report_.ledger);
+    const bool row = step % plan.stepsPerLedgerRow == 0 || last;
+    if (row) ledger_->add(sim, report_.ledger);
+    if (row && observer_) observer_->add(sim);
     if (diagnostics_ && (step % (plan.stepsPerLedgerRow * diagnostics_->every()) == 0 || last)) diagnostics_->add(sim);
     if (step % plan.stepsPerFrame == 0) writeFrame();
     for (; warned < sim.warnings().size(); ++warned) warn(sim.warnings()[warned]);
@@ -184,6 +189,7 @@ void Run::report(const std::string& ended, const std::string& failure) {
     r.energyResidual = r.ledger ? sim.ledger().residualFraction() : 0;
     r.stateHash = fmt::format("{:016x}", sim.stateHash());
   }
+  if (observer_) r.observables = observer_->results();
   r.frames = film_ ? film_->frames() : 0;
   r.renderer = film_ ? film_->renderer() : "";
   writeReport(folder_ / "run.json", r);

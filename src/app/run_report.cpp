@@ -1,5 +1,6 @@
 #include "app/run_report.h"
 
+#include <cmath>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -43,6 +44,10 @@ void writeReport(const std::filesystem::path& path, const RunReport& r) {
     json["worst_energy_residual"] = r.worstEnergyResidual;
   } else {
     json["energy_residual"] = nullptr;
+  }
+  for (const study::Measured& measured : r.observables) {
+    json["observables"][measured.name]["value"] = std::isfinite(measured.value) ? nlohmann::ordered_json(measured.value) : nlohmann::ordered_json(nullptr);
+    if (!measured.unit.empty()) json["observables"][measured.name]["unit"] = measured.unit;
   }
   json["state_hash"] = r.stateHash;
   json["frames"] = r.frames;

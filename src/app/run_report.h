@@ -7,6 +7,7 @@
 
 #include "scene/build.h"
 #include "sim/simulation.h"
+#include "study/observer.h"
 
 namespace tsubu::app {
 
@@ -31,6 +32,7 @@ struct RunReport {
   bool ledger = true;
   double energyResidual = 0;       ///< at the end, as a fraction of the energy turned over
   double worstEnergyResidual = 0;  ///< of any row of the ledger
+  std::vector<study::Measured> observables;  ///< what the scene names
   std::string stateHash;
   std::size_t frames = 0;
   std::string renderer;

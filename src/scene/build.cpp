@@ -157,7 +157,9 @@ sim::Model buildModel(const Scene& scene) {
   if (!scene.bonds.empty() && scene.show.bonds) model.showBonds = brokenFor(scene);
   model.load = scene.colours.by == render::ColourBy::force;
   model.showForces = scene.show.forces != render::ShownForces::none;
-  model.contactForces = scene.diagnostics.has_value() || model.showForces;
+  const auto ofForces = [](const Observable& o) { return std::holds_alternative<PeakForce>(o.kind); };
+  model.contactForces =
+      scene.diagnostics.has_value() || model.showForces || std::any_of(scene.observe.begin(), scene.observe.end(), ofForces);
   model.watch = {s.overlapLimit, s.travelLimit, s.onViolation == OnViolation::stop};
   model.seed = s.seed;
   return model;

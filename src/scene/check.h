@@ -32,6 +32,8 @@ void checkValues(const Scene& scene, const PositionOf& positionOf, Findings& fin
 void checkDiagnostics(const Scene& scene, const PositionOf& positionOf, Findings& findings);
 /// The same for what acts from afar.
 void checkFields(const Scene& scene, const PositionOf& positionOf, Findings& findings);
+/// Observables of things that are not there.
+void checkObserve(const Scene& scene, const PositionOf& positionOf, Findings& findings);
 /// Bonds of grains, materials and walls that are not there or cannot have them.
 void checkBonds(const Scene& scene, const PositionOf& positionOf, Findings& findings);
 

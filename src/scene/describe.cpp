@@ -171,6 +171,7 @@ void describe(Form& form, Scene& scene) {
   describeFields(form, scene);
   form.table({"output", "When frames and rows of the ledger are written."}, [&](Form& f) { describeOutput(f, scene.output); });
   describeDiagnostics(form, scene);
+  describeObserve(form, scene);
   describePicture(form, scene);
 }
 

@@ -15,6 +15,7 @@ void describeWalls(Form& form, Scene& scene);
 void describeBonds(Form& form, Scene& scene);
 void describeFields(Form& form, Scene& scene);
 void describeDiagnostics(Form& form, Scene& scene);
+void describeObserve(Form& form, Scene& scene);
 void describePicture(Form& form, Scene& scene);
 
 /// A box or a cylinder, in the keys `box` and `cylinder`.

@@ -12,6 +12,7 @@
 
 #include "render/style.h"
 #include "scene/bonds.h"
+#include "scene/observe.h"
 #include "sim/insertion/region.h"
 #include "sim/insertion/size_distribution.h"
 #include "sim/model.h"
@@ -316,6 +317,7 @@ struct Scene {
   std::optional<Magnets> magnets;
   Output output;
   std::optional<Diagnostics> diagnostics;
+  std::vector<Observable> observe;
   render::Picture picture;
   render::Background background;
   render::Light light;

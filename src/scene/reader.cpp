@@ -56,6 +56,7 @@ Scene readDocument(io::Document document, const std::string& name, const Overrid
   if (complaints.empty()) checkValues(scene, positionOf, findings);
   if (complaints.empty()) checkFields(scene, positionOf, findings);
   if (complaints.empty()) checkDiagnostics(scene, positionOf, findings);
+  if (complaints.empty()) checkObserve(scene, positionOf, findings);
   if (complaints.empty()) checkBonds(scene, positionOf, findings);
 
   const ErrorKind kind = complaints.empty() && findings.errors.empty() ? ErrorKind::files : ErrorKind::scene;

@@ -193,6 +193,46 @@ grid = { box = { min = [-0.02, -0.02, 0], max = [0.12, 0.02, 0.12] }, cells = { 
         self.assertRegex(run("--version").stdout, r"^tsubu \d+\.\d+\.\d+")
 
 
+    STUDIED = SCENE + """
+[observe]
+height = { kind = "centre_of_mass" }
+"""
+
+    def test_run_writes_what_the_scene_observes(self):
+        self.scene.write_text(self.STUDIED)
+        run("run", self.scene, "-o", self.out, "--no-frames")
+        height = self.report()["observables"]["height"]
+        self.assertEqual(height["unit"], "m")
+        self.assertTrue(0.02 < height["value"] < 0.08)
+
+    def test_tradeoff_writes_its_files_and_runs_nothing_twice(self):
+        self.scene.write_text(self.STUDIED)
+        command = ("tradeoff", self.scene, "-o", self.out, "--axes", "step,stiffness", "--budget", "60s")
+        first = run(*command)
+        self.assertEqual(first.returncode, 0, first.stderr)
+        self.assertIn("height = ", first.stdout)
+        study = json.loads((self.out / "tradeoff.json").read_text())
+        self.assertTrue(study["complete"])
+        self.assertGreater(len(study["points"]), 5)
+        with open(self.out / "tradeoff.csv", newline="") as file:
+            self.assertIn("stiffness", {row["axis"] for row in csv.DictReader(file)})
+        self.assertIn(" 0 trials run", run(*command).stdout)
+        without = dict(os.environ, PATH="")
+        result = subprocess.run([PROGRAM, *map(str, command)], capture_output=True, text=True, timeout=120, env=without)
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("gnuplot is not installed", result.stderr)
+
+    def test_tradeoff_of_features(self):
+        result = run("tradeoff", self.scene, "-o", self.out, "--features", "--budget", "60s")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("without friction", result.stdout)
+        self.assertIn("the scene does not model it", result.stdout)
+
+    def test_tradeoff_refuses_what_it_does_not_know(self):
+        self.assertIn("did you mean 'step'?", run("tradeoff", self.scene, "-o", self.out, "--axes", "stop").stderr)
+        self.assertEqual(run("tradeoff", self.scene, "-o", self.out, "--budget", "soon").returncode, 2)
+
+
 if __name__ == "__main__":
     PROGRAM = os.path.abspath(sys.argv.pop(1))
     unittest.main()

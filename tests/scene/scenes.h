@@ -216,6 +216,17 @@ rate = "0.1 1/s"
 every = 3
 regions = { left = { box = { min = [-1, -1, -1], max = [0, 1, 1] } }, right = { box = { min = [0, -1, -1], max = [1, 1, 1] } } }
 grid = { box = { min = [-1, -1, 0], max = [1, 1, "50 cm"] }, cells = { x = 4, y = 1, z = 5 } }
+[observe]
+flow = { kind = "discharge_rate", counter = "gate", from = "0.5 s", to = "1.5 s" }
+half = { kind = "time_to_empty", counter = "gate", share = "50 %" }
+emptied = { kind = "time_to_empty", box = { min = [-1, -1, 0], max = [1, 1, 1] } }
+height = { kind = "centre_of_mass", axis = [0, 1, 1], material = "glass" }
+slope = { kind = "angle_of_repose", point = ["1 cm", 0, 0] }
+front = { kind = "run_out", direction = [2, 0, 0], share = 1 }
+blow = { kind = "peak_force", wall = "floor" }
+mixed = { kind = "mixing", material = "glass", cell = "2 cm" }
+broken = { kind = "broken_bonds" }
+deepest = { kind = "largest_overlap" }
 [show]
 grains = false
 bonds = false
