@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/chosen_setting.h"
 #include "app/messages.h"
 #include "app/run.h"
 #include "app/tradeoff.h"
@@ -60,6 +61,11 @@ Commands describe(CLI::App& app, RunOptions& options, TradeoffOptions& study) {
                     app.add_subcommand("tradeoff", "Measure what speed costs in accuracy: the scene at many settings")};
   for (CLI::App* command : {commands.run, commands.explain, commands.check}) addSceneOptions(*command, options.scene, options.overrides);
   addTradeoffOptions(*commands.tradeoff, study);
+  for (CLI::App* command : {commands.run, commands.explain}) {
+    command->add_option("--accuracy", options.accuracy, "The cheapest setting that the study of the scene has found to be within this: 2% (see tradeoff)");
+    command->add_option("--quality", options.quality, "draft, standard or reference: a setting of the study of the scene");
+    command->add_option("--study", options.study, "Folder of the study (out/NAME.tradeoff when not given)")->type_name("DIR");
+  }
   commands.run->add_option("-o,--output", options.folder, "Folder for the results (out/NAME when not given)")->type_name("DIR");
   commands.run->add_option("--threads", options.threads, "Threads of the simulation; the results do not depend on it (all cores when not given)")
       ->check(CLI::Range(1, 1024));
@@ -77,10 +83,13 @@ int execute(const Commands& commands, const RunOptions& options, const TradeoffO
     return 0;
   }
   std::vector<Diagnostic> odd;
-  const scene::Scene scene = scene::read(options.scene, options.overrides, &odd);
+  const auto chosen = chosenSetting(options);
+  const scene::Scene scene = scene::read(options.scene, allOverrides(options, chosen), &odd);
   for (const Diagnostic& warning : odd) warn(toString(warning));
   if (*commands.explain) {
     fmt::print("{}", scene::explain(scene));
+    if (chosen) fmt::print("setting        {}\n", study::describe(*chosen));
+    if (const auto saved = studyOf(options)) fmt::print("{}", study::qualitiesOf(*saved));
     return 0;
   }
   const scene::Built built = scene::build(scene);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "app/chosen_setting.h"
 #include "app/diagnostics_files.h"
 #include "app/film.h"
 #include "app/interrupt.h"
@@ -59,9 +60,9 @@ class Run {
 
 Run::Run(const RunOptions& options) : options_(options) {
   std::vector<Diagnostic> odd;
-  scene::Overrides overrides = options.overrides;
-  if (options.until) overrides.push_back(fmt::format("simulation.end={:.17g}", *options.until));
-  const scene::Scene scene = scene::read(options.scene, overrides, &odd);
+  const std::optional<study::SavedPoint> chosen = chosenSetting(options);
+  const scene::Scene scene = scene::read(options.scene, allOverrides(options, chosen), &odd);
+  if (chosen) report_.setting = study::describe(*chosen), report_.settingOverrides = chosen->overrides;
   if (!options.isa.empty()) sim::useKernels(options.isa);
   for (const Diagnostic& warning : odd) warn(toString(warning));
   scene::Built built = scene::build(scene);
@@ -201,6 +202,7 @@ void Run::summarise() const {
                                  r.simulatedTime, r.steps, r.plan.timeStep, r.wallTime);
   if (r.ledger) text += fmt::format("; energy unaccounted for: {:.2g} %", 100 * r.energyResidual);
   if (r.counts.lost > 0) text += fmt::format("; {} grains lost", r.counts.lost);
+  if (!r.setting.empty()) text += fmt::format("\nsetting of the study: {}", r.setting);
   fmt::print("{}\n{}: {} frames, ledger.csv, {}run.json\n", text, folder_.string(), r.frames, diagnostics_ ? diagnostics_->names() + ", " : "");
 }
 

@@ -16,6 +16,7 @@ void writeReport(const std::filesystem::path& path, const RunReport& r) {
   json["version"] = version;
   json["scene"] = r.scene;
   json["title"] = r.title;
+  if (!r.setting.empty()) json["setting"] = {{"study", r.setting}, {"overrides", r.settingOverrides}};
   json["ended"] = r.ended;
   if (!r.failure.empty()) json["failure"] = r.failure;
   json["threads"] = r.threads;

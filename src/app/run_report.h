@@ -16,6 +16,8 @@ struct RunReport {
   std::string title;
   int threads = 1;
   std::string isa;
+  std::string setting;                        ///< of a study that was asked for; empty: the scene's own
+  std::vector<std::string> settingOverrides;
   std::string ended;         ///< "complete", "interrupted" or "failed"
   std::string failure;       ///< why, when it failed
   scene::FramePlan plan;

@@ -16,6 +16,7 @@ using Json = nlohmann::ordered_json;
 
 std::string percent(double share) {
   if (!std::isfinite(share)) return "not reached";
+  if (share < 1e-4) return share == 0 ? "0 %" : fmt::format("{:.0e} %", 100 * share);
   return fmt::format("{:.{}f} %", 100 * share, share < 0.0995 ? 2 : share < 0.995 ? 1 : 0);
 }
 
@@ -150,6 +151,7 @@ void writeStudy(const std::filesystem::path& file, const Study& study) {
   json["scene"] = study.request.scene;
   json["scene_key"] = study.key;
   json["given"] = study.request.overrides;
+  json["end"] = study.end;
   json["complete"] = study.complete;
   json["budget_seconds"] = study.request.budget;
   json["used_seconds"] = study.used;

@@ -32,6 +32,7 @@ struct SavedStudy {
   std::filesystem::path file;
   std::string key;
   scene::Overrides given;   ///< that the study was made with
+  double end = 0;           ///< s: trials ran until then
   SavedPoint reference;
   std::vector<SavedPoint> points;  ///< all that ran to their ends, the reference included
 };
@@ -52,8 +53,11 @@ inline constexpr double draftAccuracy = 0.10, standardAccuracy = 0.03;
 /// Throws Error(scene) for another word.
 const SavedPoint& pointOfQuality(const SavedStudy& study, const std::string& quality);
 
-/// Throws Error(scene) when the scene is no longer the one that was studied.
-void refuseOtherScene(const SavedStudy& study, const std::string& scene, const std::string& version);
+/// Throws Error(scene) when the scene with these overrides is not the one that was studied: seed, end and pictures apart.
+void refuseOtherScene(const SavedStudy& study, const std::string& scene, const scene::Overrides& overrides, const std::string& version);
+
+/// "step 0.9: 1.2 s of CPU, rate within 2.1 %"
+std::string describe(const SavedPoint& point);
 
 /// The three points and their errors, for `tsubu explain`.
 std::string qualitiesOf(const SavedStudy& study);

@@ -32,12 +32,12 @@ SavedPoint pointIn(const nlohmann::json& json) {
   return point;
 }
 
+}  // namespace
+
 std::string describe(const SavedPoint& point) {
   return fmt::format("{}: {:.3g} s of CPU, {} within {}{}", point.label, point.cost, point.worst, percent(point.bound),
                      point.noise ? " (noise: no difference was seen)" : "");
 }
-
-}  // namespace
 
 std::filesystem::path folderOf(const std::string& scene) {
   return std::filesystem::path("out") / (std::filesystem::path(scene).stem().string() + ".tradeoff");
@@ -53,6 +53,7 @@ SavedStudy readStudy(const std::filesystem::path& file, const std::string& scene
     study.file = file;
     study.key = json.at("scene_key");
     study.given = json.at("given").get<scene::Overrides>();
+    study.end = json.at("end");
     for (const auto& each : json.at("points")) {
       if (each.at("errors").empty() || each.contains("failed") || each.at("axis") == "features") continue;
       study.points.push_back(pointIn(each));
@@ -65,10 +66,13 @@ SavedStudy readStudy(const std::filesystem::path& file, const std::string& scene
   throw Error(ErrorKind::files, fmt::format("The study '{}' is not complete.", file.string()), fmt::format("go on with: tsubu tradeoff {}", scene));
 }
 
-void refuseOtherScene(const SavedStudy& study, const std::string& scene, const std::string& version) {
-  if (keyOf(Trial{scene, study.given}, version) == study.key) return;
+void refuseOtherScene(const SavedStudy& study, const std::string& scene, const scene::Overrides& overrides, const std::string& version) {
+  if (keyOfStudy({scene, overrides}, study.end, version) == study.key) return;
+  std::string given;
+  for (const std::string& override : study.given)
+    if (!override.starts_with("simulation.end=")) given += " --set '" + override + "'";
   throw Error(ErrorKind::scene, fmt::format("The study '{}' is of another scene, or the scene has been changed since.", study.file.string()),
-              fmt::format("make a new one: tsubu tradeoff {}", scene));
+              given.empty() ? fmt::format("make a new one: tsubu tradeoff {}", scene) : fmt::format("it was made with{}", given));
 }
 
 const SavedPoint& cheapestWithin(const SavedStudy& study, double accuracy) {

@@ -71,8 +71,8 @@ struct ObservableInfo {
 
 struct Study {
   Request request;
-  std::string key;                  ///< of the scene as it is
-  std::vector<std::string> given;   ///< for the reader: how the scene is run
+  std::string key;                  ///< of the scene as it is, seed apart
+  double end = 0;                   ///< s: of each trial
   int seeds = 1;                    ///< of each setting
   bool random = true;               ///< do seeds make a difference?
   double safety = 0;                ///< of the scene as it is: Δt over the limit

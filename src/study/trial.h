@@ -48,7 +48,8 @@ std::optional<Outcome> run(const Trial& trial, const Stop& stop = {});
 /// Fingerprint of everything that the outcome depends on: the effective scene but for its pictures, the bytes of the files that it reads,
 /// the version of tsubu. Throws as scene::read.
 std::string keyOf(const Trial& trial, const std::string& version);
-std::string keyOf(const scene::Scene& scene, const std::string& version);
+/// The same of a scene of which no seed is meant: what a study is of.
+std::string keyOfStudy(Trial trial, double end, const std::string& version);
 
 /// A folder of outcomes.
 class TrialStore {

@@ -47,8 +47,6 @@ scene::Scene withoutPictures(scene::Scene scene) {
   return scene;
 }
 
-}  // namespace
-
 std::string keyOf(const scene::Scene& scene, const std::string& version) {
   Hash hash;
   hash.add(format);
@@ -61,7 +59,15 @@ std::string keyOf(const scene::Scene& scene, const std::string& version) {
   return hash.text();
 }
 
+}  // namespace
+
 std::string keyOf(const Trial& trial, const std::string& version) { return keyOf(scene::read(trial.scene, trial.overrides), version); }
+
+std::string keyOfStudy(Trial trial, double end, const std::string& version) {
+  trial.overrides.push_back("simulation.seed=0");
+  trial.overrides.push_back(fmt::format("simulation.end={:.17g}", end));
+  return keyOf(trial, version);
+}
 
 TrialStore::TrialStore(std::filesystem::path folder, std::string version) : folder_(std::move(folder)), version_(std::move(version)) {
   makeFolder(folder_);

@@ -222,6 +222,30 @@ height = { kind = "centre_of_mass" }
         self.assertEqual(result.returncode, 0)
         self.assertIn("gnuplot is not installed", result.stderr)
 
+    def test_accuracy_takes_the_cheapest_setting_that_is_within(self):
+        self.scene.write_text(self.STUDIED)
+        missing = run("run", self.scene, "-o", self.out, "--accuracy", "2%")
+        self.assertEqual(missing.returncode, 3)
+        self.assertIn("make one: tsubu tradeoff", missing.stderr)
+        folder = self.path / "study"
+        run("tradeoff", self.scene, "-o", folder, "--axes", "step,stiffness", "--budget", "60s")
+        points = [p for p in json.loads((folder / "tradeoff.json").read_text())["points"] if p["errors"]]
+        bounds = sorted(p["bound"] for p in points)
+        accuracy = bounds[len(bounds) // 2] * 1.0001
+        cheapest = min((p for p in points if p["bound"] <= accuracy), key=lambda p: p["cost_cpu_seconds"])
+        chosen = run("run", self.scene, "-o", self.out, "--no-frames", "--study", folder, "--accuracy", accuracy)
+        self.assertEqual(chosen.returncode, 0, chosen.stderr)
+        self.assertEqual(self.report()["setting"]["overrides"], cheapest["overrides"])
+        none = run("run", self.scene, "-o", self.out, "--study", folder, "--accuracy", bounds[0] * 0.5)
+        self.assertEqual(none.returncode, 2)
+        self.assertIn("No setting of the study is within", none.stderr)
+        other = run("run", self.scene, "-o", self.out, "--study", folder, "--quality", "draft", "--set", "pairs.restitution=0.5")
+        self.assertIn("another scene", other.stderr)
+        explained = run("explain", self.scene, "--study", folder, "--quality", "reference").stdout
+        for word in ("draft", "standard", "reference", "setting "):
+            self.assertIn(word, explained)
+        self.assertEqual(run("run", self.scene, "--accuracy", "none").returncode, 2)
+
     def test_tradeoff_of_features(self):
         result = run("tradeoff", self.scene, "-o", self.out, "--features", "--budget", "60s")
         self.assertEqual(result.returncode, 0, result.stderr)

@@ -205,8 +205,9 @@ TEST(SavedStudy, APromiseIsKept) {
   const Study study = made(request);
   writeStudy(folder.path() / "tradeoff.json", study);
   const SavedStudy read = readStudy(folder.path() / "tradeoff.json", request.scene);
-  refuseOtherScene(read, request.scene, "test");
-  EXPECT_THROW(refuseOtherScene(read, folder.file("other.toml", heap), "test"), Error);
+  refuseOtherScene(read, request.scene, {"simulation.seed=9", "simulation.end=3"}, "test");
+  EXPECT_THROW(refuseOtherScene(read, folder.file("other.toml", heap), {}, "test"), Error);
+  EXPECT_THROW(refuseOtherScene(read, request.scene, {"pairs.restitution=0.6"}, "test"), Error);
   const double accuracy = 3 * study.points.back().bound();
   const SavedPoint& chosen = cheapestWithin(read, accuracy);
   for (const Point& point : study.points)
