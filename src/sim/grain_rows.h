@@ -27,4 +27,20 @@ struct alignas(64) ForceRow {
   double qx, qy, qz, unused1;
 };
 
+/// Velocities half a step before the positions: velocity Verlet's own (docs/physics.md, I2).
+struct alignas(64) HalfStepRow {
+  double vx, vy, vz, unused0;
+  double sx, sy, sz, unused1;
+};
+
+/// An angle as a vector, rad.
+struct alignas(32) AngleRow {
+  double x, y, z, unused;
+};
+
+/// A place, m.
+struct alignas(32) PlaceRow {
+  double x, y, z, unused;
+};
+
 }  // namespace tsubu::sim

@@ -1,93 +1,10 @@
 #include "sim/integrate.h"
 
-#include <cmath>
-
 namespace tsubu::sim {
 
 namespace {
 
 V3 v3(const Vec3& a) { return {a.x(), a.y(), a.z()}; }
-
-/// Where a grain goes in a step and with what spin.
-struct Way {
-  V3 x, speed, spin;
-};
-
-template <Integrator scheme, bool turns>
-TSUBU_INLINE Way advance(State& state, std::size_t k, GrainRow& row, const Acceleration& a, double dt) {
-  V3 u = row.velocity(), w = row.surfaceSpin();
-  if constexpr (scheme == Integrator::velocityVerlet) {
-    const HalfStepRow& half = state.half[k];
-    u = {half.vx, half.vy, half.vz};
-    w = {half.sx, half.sy, half.sz};
-  }
-  Way way{row.position(), u, w};
-  u = u + dt * a.linear;
-  if constexpr (turns) w = w + dt * a.surface;
-  if constexpr (scheme != Integrator::explicitEuler) way.speed = u, way.spin = w;
-  if constexpr (scheme == Integrator::centralDifferences) {
-    const Vec3 before = state.previous[k];
-    state.previous[k] = {way.x.x, way.x.y, way.x.z};
-    const V3 next = 2 * way.x - V3{before.x(), before.y(), before.z()} + (dt * dt) * a.linear;
-    u = (1 / dt) * (next - way.x);
-    way = {next, u, w};
-  } else {
-    way.x = way.x + dt * way.speed;
-  }
-  V3 v = u, s = w;
-  if constexpr (scheme == Integrator::velocityVerlet) {
-    state.half[k] = {u.x, u.y, u.z, 0, w.x, w.y, w.z, 0};
-    v = u + (0.5 * dt) * a.linear;
-    if constexpr (turns) s = w + (0.5 * dt) * a.surface;
-  }
-  row.x = way.x.x, row.y = way.x.y, row.z = way.x.z;
-  row.vx = v.x, row.vy = v.y, row.vz = v.z;
-  if constexpr (turns) row.sx = s.x, row.sy = s.y, row.sz = s.z;
-  return way;
-}
-
-template <Integrator scheme, bool turns>
-Motion integrateRange(State& state, std::int32_t first, std::int32_t last, V3 gravity, double dt) {
-  Motion motion;
-  for (std::int32_t g = first; g < last; ++g) {
-    const auto k = static_cast<std::size_t>(g);
-    GrainRow& row = state.rows[k];
-    ForceRow& force = state.forces[k];
-    const Acceleration a = accelerationOf(row, force, gravity);
-    force = ForceRow{};
-    const Way way = advance<scheme, turns>(state, k, row, a, dt);
-    if constexpr (turns) {
-      AngleRow& angle = state.turned[k];
-      const double scale = dt * row.inverseRadius;
-      angle.x += scale * way.spin.x, angle.y += scale * way.spin.y, angle.z += scale * way.spin.z;
-    }
-    motion.add(norm2(way.speed), dt * row.inverseRadius);
-  }
-  return motion;
-}
-
-template <Integrator scheme>
-Motion integrateGrains(State& state, std::int32_t first, std::int32_t last, V3 gravity, double dt) {
-  return state.turns ? integrateRange<scheme, true>(state, first, last, gravity, dt)
-                     : integrateRange<scheme, false>(state, first, last, gravity, dt);
-}
-
-Motion integrateBy(Integrator scheme, State& state, std::int32_t first, std::int32_t last, V3 gravity, double dt) {
-  switch (scheme) {
-    case Integrator::velocityVerlet:
-      return integrateGrains<Integrator::velocityVerlet>(state, first, last, gravity, dt);
-    case Integrator::explicitEuler:
-      return integrateGrains<Integrator::explicitEuler>(state, first, last, gravity, dt);
-    case Integrator::leapfrog:
-      return integrateGrains<Integrator::leapfrog>(state, first, last, gravity, dt);
-    case Integrator::centralDifferences:
-      return integrateGrains<Integrator::centralDifferences>(state, first, last, gravity, dt);
-    case Integrator::rungeKutta:  // not by single passes: runge_kutta.h
-    case Integrator::symplecticEuler:
-      break;
-  }
-  return integrateGrains<Integrator::symplecticEuler>(state, first, last, gravity, dt);
-}
 
 }  // namespace
 
@@ -111,7 +28,9 @@ Quat orientationNow(const State& state, std::size_t grain) {
 }
 
 Motion integrate(State& state, std::int32_t first, std::int32_t last, const Vec3& gravity, double dt, bool turn) {
-  const Motion motion = integrateBy(state.integrator, state, first, last, v3(gravity), dt);
+  const MoveContext context{state.rows.data(),     state.forces.data(), state.half.data(), state.previous.data(),
+                            state.turned.data(), v3(gravity),         dt};
+  const Motion motion = kernels().move(state.integrator, state.turns)(context, first, last);
   for (std::int32_t grain = first; turn && state.turns && grain < last; ++grain) {
     const auto k = static_cast<std::size_t>(grain);
     state.orientation[k] = orientationNow(state, k);
@@ -135,7 +54,7 @@ void startHalfSteps(State& state, std::uint32_t firstId, const Vec3& gravity, do
     }
     row.vx = u.x, row.vy = u.y, row.vz = u.z;
     row.sx = w.x, row.sy = w.y, row.sz = w.z;
-    if (state.integrator == Integrator::centralDifferences) state.previous[k] = Vec3(row.x, row.y, row.z) - dt * Vec3(u.x, u.y, u.z);
+    if (state.integrator == Integrator::centralDifferences) state.previous[k] = {row.x - dt * u.x, row.y - dt * u.y, row.z - dt * u.z, 0};
   }
 }
 

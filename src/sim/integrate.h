@@ -1,5 +1,6 @@
 #pragma once
-// The integrators (docs/physics.md, I1–I6). One pass moves the grains, clears their force rows and finds the fastest.
+// The integrators (docs/physics.md, I1–I6). One pass (kernel/grain_passes.h) moves the grains, clears their force rows and finds the
+// fastest.
 //
 //   I1  symplectic Euler     v ← v + a Δt,  x ← x + v Δt;                 contacts see v
 //   I2  velocity Verlet      u ← u + a Δt,  x ← x + u Δt;                 contacts see v = u + ½ a Δt
@@ -16,25 +17,10 @@
 //                            where magnets read it, over one.
 // The Runge–Kutta method has a file of its own (runge_kutta.h).
 
-#include <limits>
-
-#include "sim/neighbours/slabs.h"
+#include "sim/kernel/kernels.h"
 #include "sim/state.h"
 
 namespace tsubu::sim {
-
-/// What a pass over grains finds.
-struct Motion {
-  double fastest2 = 0;  ///< (m/s)²: the largest squared speed
-  double travel2 = 0;   ///< largest (distance moved in the step / radius)²; NaN counts as infinite
-
-  /// A grain goes with the square of this speed; `scale`: Δt/r.
-  TSUBU_INLINE void add(double speed2, double scale) {
-    const double way2 = speed2 * scale * scale;
-    fastest2 = speed2 > fastest2 ? speed2 : fastest2;
-    if (!(way2 <= travel2)) travel2 = way2 == way2 ? way2 : std::numeric_limits<double>::infinity();
-  }
-};
 
 /// dv/dt and d(rω)/dt
 struct Acceleration {

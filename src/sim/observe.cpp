@@ -333,7 +333,7 @@ std::uint64_t Simulation::Impl::stateHash() {
     if (!state.half.empty())
       for (const double value : {state.half[g].vx, state.half[g].vy, state.half[g].vz}) hash.add(value);
     if (!state.previous.empty())
-      for (const double value : state.previous[g]) hash.add(value);
+      for (const double value : {state.previous[g].x, state.previous[g].y, state.previous[g].z}) hash.add(value);
     if (state.turns)
     {
       const Quat orientation = orientationNow(state, g);

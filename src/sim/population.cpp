@@ -179,8 +179,8 @@ bool Simulation::Impl::touchesGrain(const Vec3& centre, double radius, std::vect
     for (std::size_t g = 0; g < state.size(); ++g) near.push_back(static_cast<std::int32_t>(g));
   } else {
     const Vec3 inside = periods.wrapped(centre);
-    grid.near(inside, radius, -1, true, near);
-    periods.forImages(inside, grid.farthest(radius), [&](int shift) { grid.near(inside + periods.shift(shift), radius, -1, true, near); });
+    grid.near(inside, radius, -1, near);
+    periods.forImages(inside, grid.farthest(radius), [&](int shift) { grid.near(inside + periods.shift(shift), radius, -1, near); });
   }
   return std::any_of(near.begin(), near.end(), [&](std::int32_t g) {
     const GrainRow& row = state.rows[static_cast<std::size_t>(g)];

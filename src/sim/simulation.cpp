@@ -19,6 +19,9 @@ namespace {
 // The watch needs accounts; without a ledger it looks only so often. What goes wrong for good is seen a little later.
 constexpr std::uint64_t watchEvery = 64;
 
+// Grains that a cache of some 16 MB holds: asking for rows ahead of time pays beyond, and costs a little below.
+constexpr std::size_t fitsCache = 60'000;
+
 // Neighbour lists: skins in terms of how far the fastest grain moves in a step, bounded in terms of the smallest radius.
 constexpr double outerSteps = 120, innerSteps = 6;
 constexpr double leastOuter = 0.2, mostOuter = 0.8, leastInner = 0.02, mostInner = 0.25;
@@ -111,7 +114,7 @@ void Simulation::Impl::prepareState() {
 
 PassContext Simulation::Impl::context(PairClass pairClass, bool oneClass) {
   return {state.rows.data(), state.forces.data(),           state.material.data(), model.materials.size(),
-          oneClass ? constants.of(pairClass.first) : constants.values.data(), stepOf()};
+          oneClass ? constants.of(pairClass.first) : constants.values.data(), stepOf(), state.size() > fitsCache};
 }
 
 StepOf Simulation::Impl::stepOf() const {
@@ -156,32 +159,46 @@ void Simulation::Impl::computeForces(For whom) {
   if (accountsKnown) watchOverlap();
 }
 
-// Forces of all contacts, with what they put into the accounts (`last`).
+// Nothing but contacts acts, and nobody but the grains feels it: what a slab needs to move is known before the pass has ended.
+bool Simulation::Impl::contactsActAlone() const {
+  return passes.empty() && moving.empty() && !rungeKutta && !pairs.hasImages() && firstArrival == state.nextId;
+}
+
+// Forces of all contacts, with what they put into the accounts (`last`). A slab writes to itself and the next one: even slabs first, then
+// odd ones. After an odd slab it and the next one are complete, and nobody reads them any more: where contacts act alone, a step
+// moves them then, while they lie in the cache.
 void Simulation::Impl::evaluateContacts(For whom) {
   walls.settle();
   const auto onPairs = pairKernel(law, {classes.grains.alike, accountsKnown});
   const auto onWalls = wallKernel(law, {classes.walls.alike, accountsKnown});
   const PassContext grainsWorld = context(classes.grains, onPairs.oneClass), wallsWorld = context(classes.walls, onWalls.oneClass);
-  last.assign(static_cast<std::size_t>(slabs.count()), Accounts{});
+  const int count = slabs.count();
+  last.assign(static_cast<std::size_t>(count), Accounts{});
   const bool noting = model.contactForces && whom == For::observer;
-  acting.assign(noting ? static_cast<std::size_t>(slabs.count()) : 0, {});
-  for (int parity = 0; parity < 2; ++parity) {
-    team.run((slabs.count() + 1 - parity) / 2, [&](int task, int thread) {
-      const int slab = 2 * task + parity;
-      const auto s = static_cast<std::size_t>(slab);
-      SlabPairs& list = pairs.slabs()[s];
-      Stage& stage = stages[static_cast<std::size_t>(thread)];
-      PairLists::refreshImages(state, list);
-      const PairRange range{list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.data(), list.stride,
-                            list.touch.empty() ? nullptr : list.touch.data()};
-      if (noting)
-        passNoting(onPairs.kernel, grainsWorld, range, traits.rolls, stage, last[s], acting[s]);
-      else
-        onPairs.kernel(grainsWorld, range, stage, last[s]);
-      walls.evaluateSlab(slab, wallsWorld, onWalls.kernel, accountsKnown, stage, last[s], noting ? &acting[s] : nullptr);
-    });
-  }
-  if (pairs.hasImages()) team.run(slabs.count(), [&](int slab, int) { pairs.foldImages(state, slab); });
+  acting.assign(noting ? static_cast<std::size_t>(count) : 0, {});
+  const auto evaluate = [&](int slab, int thread) {
+    const auto s = static_cast<std::size_t>(slab);
+    SlabPairs& list = pairs.slabs()[s];
+    Stage& stage = stages[static_cast<std::size_t>(thread)];
+    PairLists::refreshImages(state, list);
+    const PairRange range{list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.data(), list.stride,
+                          list.touch.empty() ? nullptr : list.touch.data()};
+    if (noting)
+      passNoting(onPairs.kernel, grainsWorld, range, traits.rolls, stage, last[s], acting[s]);
+    else
+      onPairs.kernel(grainsWorld, range, stage, last[s]);
+    walls.evaluateSlab(slab, wallsWorld, onWalls.kernel, accountsKnown, stage, last[s], noting ? &acting[s] : nullptr);
+  };
+  moved = whom == For::step && contactsActAlone();
+  motions.assign(static_cast<std::size_t>(count), Motion{});
+  team.run((count + 1) / 2, [&](int task, int thread) { evaluate(2 * task, thread); });
+  team.run((count + 1) / 2, [&](int task, int thread) {
+    if (2 * task + 1 < count) evaluate(2 * task + 1, thread);
+    if (!moved) return;
+    if (task == 0) moveSlab(0);
+    for (int slab = 2 * task + 1; slab < std::min(2 * task + 3, count); ++slab) moveSlab(slab);
+  });
+  if (pairs.hasImages()) team.run(count, [&](int slab, int) { pairs.foldImages(state, slab); });
 }
 
 // Adds a share of what the last evaluation dissipated to the totals.
@@ -219,15 +236,16 @@ void Simulation::Impl::loadMovingWalls() {
   }
 }
 
-Motion Simulation::Impl::moveBySlabs() {
-  std::vector<Motion>& found = motions;
-  found.assign(static_cast<std::size_t>(slabs.count()), Motion{});
+void Simulation::Impl::moveSlab(int slab) {
   const bool turn = (steps + 1) % turnInterval == 0;
-  team.run(slabs.count(), [&](int slab, int) {
-    found[static_cast<std::size_t>(slab)] = integrate(state, slabs.begin(slab), slabs.end(slab), gravity.now(), model.timeStep, turn);
-  });
+  motions[static_cast<std::size_t>(slab)] = integrate(state, slabs.begin(slab), slabs.end(slab), gravity.now(), model.timeStep, turn);
+}
+
+Motion Simulation::Impl::moveBySlabs() {
+  if (!moved) team.run(slabs.count(), [&](int slab, int) { moveSlab(slab); });
+  moved = false;
   Motion most;
-  for (const Motion& motion : found) {
+  for (const Motion& motion : motions) {
     most.fastest2 = std::max(most.fastest2, motion.fastest2);
     most.travel2 = std::max(most.travel2, motion.travel2);
   }
@@ -321,7 +339,10 @@ void Simulation::Impl::wrapGrains() {
     const Vec3 x(row.x, row.y, row.z), shift = periods.shiftInto(x);
     if (shift == Vec3::Zero()) continue;
     state.wrap[g] = shift;
-    if (!state.previous.empty()) state.previous[g] += shift;
+    if (!state.previous.empty()) {
+      PlaceRow& before = state.previous[g];
+      before.x += shift.x(), before.y += shift.y(), before.z += shift.z();
+    }
     row.x += shift.x(), row.y += shift.y(), row.z += shift.z();
     wrapWork -= gravity.now().dot(shift) / row.inverseMass;
     if (model.counters.empty()) continue;

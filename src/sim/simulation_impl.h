@@ -82,6 +82,7 @@ class Simulation::Impl {
   std::uint64_t stepsBetweenArrivals = 1;
   std::uint64_t turnInterval = turnEvery;   ///< steps between updates of the orientations; magnets need them all
   bool forcesKnown = false;
+  bool moved = false;                       ///< the step's grains have been moved in the pass over their contacts
   bool accountsKnown = false;               ///< the last pass kept accounts
   std::vector<Motion> motions;              ///< one per slab
   std::vector<std::int32_t> placeAfterRemoval;  ///< old place → place after removals that the lists do not know yet; empty: none
@@ -124,6 +125,8 @@ class Simulation::Impl {
   StepOf stepOf() const;
   void evaluateContacts(For whom);
   void move();
+  bool contactsActAlone() const;
+  void moveSlab(int slab);
   Motion moveBySlabs();
   Motion moveByStages();
 

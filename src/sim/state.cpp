@@ -17,7 +17,7 @@ void State::add(const Grain& grain, double density, const Vec3& gravity, double 
                   1 / grain.radius});
   forces.push_back({});
   if (integrator == Integrator::velocityVerlet) half.push_back({before.x(), before.y(), before.z(), 0, s.x(), s.y(), s.z(), 0});
-  if (integrator == Integrator::centralDifferences) previous.push_back(x - dt * before);
+  if (integrator == Integrator::centralDifferences) previous.push_back({x.x() - dt * before.x(), x.y() - dt * before.y(), x.z() - dt * before.z(), 0});
   if (turns) {
     orientation.push_back(grain.orientation.normalized());
     turned.push_back({});

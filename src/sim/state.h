@@ -12,23 +12,12 @@
 
 namespace tsubu::sim {
 
-/// Velocities half a step before the positions: velocity Verlet's own (docs/physics.md, I2).
-struct alignas(64) HalfStepRow {
-  double vx, vy, vz, unused0;
-  double sx, sy, sz, unused1;
-};
-
-/// An angle as a vector, rad.
-struct alignas(32) AngleRow {
-  double x, y, z, unused;
-};
-
 /// Rows, forces and materials may go on beyond the grains: images of grains across a periodic boundary (neighbours/pair_lists.h).
 struct State {
   std::vector<GrainRow> rows;
   std::vector<ForceRow> forces;
   std::vector<HalfStepRow> half;         ///< velocity Verlet
-  std::vector<Vec3> previous;            ///< central differences: positions one step ago
+  std::vector<PlaceRow> previous;        ///< central differences: positions one step ago
   std::vector<Quat> orientation;         ///< empty unless grains turn; as it was when `turned` was last zero
   std::vector<AngleRow> turned;          ///< ∫ω dt since then: orientations only show, and are brought up to date every few steps
   std::vector<std::uint16_t> material;

@@ -66,6 +66,7 @@ bool WallPass::touches(const Vec3& centre, double radius) const {
 }
 
 void WallPass::build(const State& state, const Slabs& slabs, double skin, double dt, const std::vector<std::int32_t>& newPlace) {
+  settle();
   // Contacts in force, by grain in the new order.
   struct Old {
     std::int32_t grain;
@@ -96,10 +97,15 @@ void WallPass::build(const State& state, const Slabs& slabs, double skin, double
     SlabWalls& slab = slabs_[static_cast<std::size_t>(s)];
     for (std::int32_t g = slabs.begin(s); g < slabs.end(s); ++g) {
       const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
+      const Vec3 centre = centreOf(row), velocity(row.vx, row.vy, row.vz);
       for (std::size_t w = 0; w < walls_->size(); ++w) {
         const Pose& pose = places_[w].pose;
-        const Vec3 centre = centreOf(row), local = pose.toLocal(centre);
-        const Vec3 travel = dt * (Vec3(row.vx, row.vy, row.vz) - places_[w].twist.at(centre));
+        const Vec3 travel = dt * (velocity - places_[w].twist.at(centre));
+        if (const auto& plane = places_[w].plane) {
+          const double away = plane->signedDistance(centre) - row.radius - skin;
+          if (away > 0 && away * away > travel.squaredNorm()) continue;
+        }
+        const Vec3 local = pose.toLocal(centre);
         (*walls_)[w].surface->candidates(local, row.radius + skin + travel.norm(), features);
         if (features.empty()) continue;
         WallGroup group;

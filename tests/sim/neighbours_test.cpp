@@ -51,7 +51,7 @@ TEST(CellGrid, FindsAllThatBruteForceFinds) {
     std::vector<std::int32_t> found;
     for (std::size_t g = 0; g < rows.size(); ++g) {
       found.clear();
-      grid.near(Vec3(rows[g].x, rows[g].y, rows[g].z), rows[g].radius, static_cast<std::int32_t>(g), true, found);
+      grid.near(Vec3(rows[g].x, rows[g].y, rows[g].z), rows[g].radius, static_cast<std::int32_t>(g), found);
       std::sort(found.begin(), found.end());
       ASSERT_EQ(std::adjacent_find(found.begin(), found.end()), found.end()) << "found twice, round " << round;
       for (std::size_t o = 0; o < rows.size(); ++o) {

@@ -7,7 +7,6 @@
 
 #include "sim/bonds/bond_law.h"
 #include "sim/grain_rows.h"
-#include "sim/state.h"
 
 namespace tsubu::sim {
 

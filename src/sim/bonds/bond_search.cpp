@@ -40,10 +40,10 @@ std::vector<BondedPair> bondablePairs(const Bonding& bonding, std::size_t kind, 
     const GrainRow& row = grains.rows[static_cast<std::size_t>(g)];
     found.clear();
     const Vec3 place = positionOf(row);
-    grid.near(place, row.radius, g, true, found);
+    grid.near(place, row.radius, g, found);
     if (grains.periods.any())
       grains.periods.forImages(place, row.radius + largest + skin, [&](int number) {
-        grid.near(Vec3(place + grains.periods.shift(number)), row.radius, g, true, found);
+        grid.near(Vec3(place + grains.periods.shift(number)), row.radius, g, found);
       });
     for (const std::int32_t other : found) {
       if (other < g || other >= count) continue;  // every pair is found from both ends

@@ -101,8 +101,8 @@ void MagnetPass::regroup(const World& world, const std::vector<std::int32_t>&) {
       const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
       found.clear();
       const Vec3 x(row.x, row.y, row.z);
-      grid.near(x, 0, static_cast<std::int32_t>(self++), true, found);
-      world.periods.forImages(x, reach, [&](int shift) { grid.near(x + world.periods.shift(shift), 0, -1, true, found); });
+      grid.near(x, 0, static_cast<std::int32_t>(self++), found);
+      world.periods.forImages(x, reach, [&](int shift) { grid.near(x + world.periods.shift(shift), 0, -1, found); });
       std::sort(found.begin(), found.end());
       for (const std::int32_t point : found) near.list.push_back(place[static_cast<std::size_t>(point)]);
     }

@@ -333,10 +333,22 @@ void restoreArms(const double* touch, int count, Stage& s) {
   }
 }
 
+/// Asks for the rows of a chunk's partners; those of the first grains come in order, and the processor sees it.
+TSUBU_INLINE void askFor(const PassContext& context, const std::int32_t* js, std::int64_t count) {
+  for (std::int64_t q = 0; q < count; ++q) {
+    const auto* const row = reinterpret_cast<const char*>(&context.rows[js[q]]);
+    __builtin_prefetch(row, 0, 2);
+    __builtin_prefetch(row + sizeof(GrainRow) - 1, 0, 2);
+    __builtin_prefetch(&context.forces[js[q]], 1, 2);
+  }
+}
+
 template <class Law, bool oneClass, bool accounts>
 void passPairs(const PassContext& context, const PairRange& range, Stage& stage, Accounts& sums) {
   for (std::int64_t first = 0; first < range.count; first += chunkSize) {
-    const int count = static_cast<int>(range.count - first < chunkSize ? range.count - first : chunkSize);
+    const std::int64_t left = range.count - first;
+    const int count = static_cast<int>(left < chunkSize ? left : chunkSize);
+    if (context.prefetch) askFor(context, range.j + first + count, left - count < chunkSize ? left - count : chunkSize);
     double* memory[mostMemory] = {};
     for (int c = 0; c < Law::stateSize; ++c) memory[c] = range.memory + static_cast<std::size_t>(c) * range.stride + first;
     gather<Law, oneClass, accounts>(context, range.i + first, range.j + first, count, stage);

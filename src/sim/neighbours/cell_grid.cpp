@@ -73,7 +73,8 @@ void CellGrid::fill(Level& level, const std::vector<std::int32_t>& members) cons
   for (const std::int32_t g : members) level.entries[static_cast<std::size_t>(next[cellOf(g)]++)] = g;
 }
 
-void CellGrid::search(const Level& level, const Vec3& x, double radius, std::int32_t self, std::vector<std::int32_t>& found) const {
+template <class Visit>
+void CellGrid::visitRuns(const Level& level, const Vec3& x, double radius, Visit&& visit) const {
   if (level.entries.empty()) return;
   // The centres of this level's grains within reach: a cube around x of this half edge.
   const double half = radius + 0.5 * level.edge + 0.5 * reach_;
@@ -82,11 +83,20 @@ void CellGrid::search(const Level& level, const Vec3& x, double radius, std::int
         low.z() < static_cast<double>(level.nz)))
     return;
   const auto x0 = clampedCell(low.x(), level.nx), x1 = clampedCell(high.x(), level.nx);
-  for (auto cz = clampedCell(low.z(), level.nz); cz <= clampedCell(high.z(), level.nz); ++cz) {
-    for (auto cy = clampedCell(low.y(), level.ny); cy <= clampedCell(high.y(), level.ny); ++cy) {
-      const std::size_t line = static_cast<std::size_t>((cz * level.ny + cy) * level.nx);
-      const std::int32_t last = level.start[line + static_cast<std::size_t>(x1) + 1];
-      for (std::int32_t e = level.start[line + static_cast<std::size_t>(x0)]; e < last; ++e) {
+  const auto y0 = clampedCell(low.y(), level.ny), y1 = clampedCell(high.y(), level.ny);
+  const auto z0 = clampedCell(low.z(), level.nz), z1 = clampedCell(high.z(), level.nz);
+  for (auto cz = z0; cz <= z1; ++cz) {
+    for (auto cy = y0; cy <= y1; ++cy) {
+      const std::int64_t line = (cz * level.ny + cy) * level.nx;
+      visit(level.start[static_cast<std::size_t>(line + x0)], level.start[static_cast<std::size_t>(line + x1 + 1)]);
+    }
+  }
+}
+
+void CellGrid::near(const Vec3& x, double radius, std::int32_t self, std::vector<std::int32_t>& found) const {
+  for (const Level& level : levels_) {
+    visitRuns(level, x, radius, [&](std::int32_t first, std::int32_t last) {
+      for (std::int32_t e = first; e < last; ++e) {
         const std::int32_t j = level.entries[static_cast<std::size_t>(e)];
         if (j == self) continue;
         const GrainRow& other = (*rows_)[static_cast<std::size_t>(j)];
@@ -94,13 +104,27 @@ void CellGrid::search(const Level& level, const Vec3& x, double radius, std::int
         const double dx = x.x() - other.x, dy = x.y() - other.y, dz = x.z() - other.z;
         if (dx * dx + dy * dy + dz * dz < cut * cut) found.push_back(j);
       }
-    }
+    });
   }
 }
 
-void CellGrid::near(const Vec3& x, double radius, std::int32_t self, bool all, std::vector<std::int32_t>& found) const {
-  const std::size_t lowest = all ? 0 : static_cast<std::size_t>(level(radius));
-  for (std::size_t l = lowest; l < levels_.size(); ++l) search(levels_[l], x, radius, self, found);
+std::size_t CellGrid::partners(const Vec3& x, double radius, std::int32_t self, std::vector<std::int32_t>& found, std::size_t count) const {
+  const auto own = static_cast<std::size_t>(level(radius));
+  for (std::size_t l = own; l < levels_.size(); ++l) {
+    const Level& level = levels_[l];
+    const std::int32_t beyond = l == own ? self : -1;
+    visitRuns(level, x, radius, [&](std::int32_t first, std::int32_t last) {
+      const auto length = static_cast<std::size_t>(last - first);
+      if (found.size() < count + length) found.resize(2 * (count + length));
+      // Without a branch: which numbers are higher cannot be foreseen.
+      for (std::int32_t e = first; e < last; ++e) {
+        const std::int32_t j = level.entries[static_cast<std::size_t>(e)];
+        found[count] = j;
+        count += j > beyond;
+      }
+    });
+  }
+  return count;
 }
 
 }  // namespace tsubu::sim

@@ -15,17 +15,23 @@ class CellGrid {
   /// \param reach  m: pairs are wanted whose surfaces are nearer than this
   void build(const std::vector<GrainRow>& rows, double reach);
 
-  /// Appends all grains j with |x_j − x| < r + r_j + reach, except `self`, in no particular order. Grains in the level of `radius` and
-  /// in coarser levels only, unless `all`: searching from the smaller partner of a pair is enough, and cheap.
-  void near(const Vec3& x, double radius, std::int32_t self, bool all, std::vector<std::int32_t>& found) const;
+  /// Appends all grains j with |x_j − x| < r + r_j + reach, except `self`, in no particular order.
+  void near(const Vec3& x, double radius, std::int32_t self, std::vector<std::int32_t>& found) const;
+
+  /// Writes from place `count` on all grains that may be as near as that and make a pair with grain `self` (at x) not yet seen from the
+  /// other side: in the level of its radius those with higher numbers, in coarser levels all, in finer ones none. Returns the new
+  /// count; `found` grows as needed. Which of them are near is for the caller to find out, many at once.
+  std::size_t partners(const Vec3& x, double radius, std::int32_t self, std::vector<std::int32_t>& found, std::size_t count) const;
 
   /// m: how far from a point a sphere of this radius may meet a listed partner.
   double farthest(double radius) const { return radius + largest_ + reach_; }
 
+  double reach() const { return reach_; }
+
+ private:
   /// Number of the level a radius belongs to.
   int level(double radius) const;
 
- private:
   struct Level {
     double edge = 0;                   // of a cell, m; at least the diameter of the grains in it plus the reach
     Vec3 origin = Vec3::Zero();
@@ -34,7 +40,9 @@ class CellGrid {
     std::vector<std::int32_t> entries;
   };
   void fill(Level& level, const std::vector<std::int32_t>& members) const;
-  void search(const Level& level, const Vec3& x, double radius, std::int32_t self, std::vector<std::int32_t>& found) const;
+  /// Calls visit(first, last) for runs of entries; the grains of the level near x are among them.
+  template <class Visit>
+  void visitRuns(const Level& level, const Vec3& x, double radius, Visit&& visit) const;
 
   const std::vector<GrainRow>* rows_ = nullptr;
   double reach_ = 0;

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "sim/kernel/kernels.h"
+
 namespace tsubu::sim {
 
 namespace {
-
-bool nearer(const GrainRow& a, const GrainRow& b, double skin) {
-  const double dx = a.x - b.x, dy = a.y - b.y, dz = a.z - b.z, cut = a.radius + b.radius + skin;
-  return dx * dx + dy * dy + dz * dz < cut * cut;
-}
 
 // Sorts (i, j) pairs that come flat, i0 j0 i1 j1 …, with i in [first, last): counting by i, then the few j of each i.
 void sortPairs(std::initializer_list<const std::vector<std::int32_t>*> flats, std::int32_t first, std::int32_t last,
@@ -88,21 +85,31 @@ void PairLists::placeRemembered(const State& state, const std::vector<std::int32
 
 void PairLists::searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, FlatPairs& own,
                            FlatPairs& before) const {
-  std::vector<std::int32_t> found;
-  for (std::int32_t g = slabs.begin(slab); g < slabs.end(slab); ++g) {
-    const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
-    found.clear();
-    grid.near(Vec3(row.x, row.y, row.z), row.radius, g, false, found);
-    const int level = grid.level(row.radius);
-    for (const std::int32_t other : found) {
-      // Partners in the same level find each other twice: the lower one speaks.
-      if (other < g && grid.level(state.rows[static_cast<std::size_t>(other)].radius) == level) continue;
-      const std::int32_t i = std::min(g, other), j = std::max(g, other);
+  // Candidates of some grains at a time, as many as lie in the first-level cache with their grains.
+  constexpr std::size_t some = 2048;
+  std::vector<std::int32_t> grains, partners, near;
+  std::size_t count = 0;
+  const auto sift = [&] {
+    near.resize(count + 3);
+    const auto found = kernels().nearPairs(state.rows.data(), grains.data(), partners.data(), static_cast<std::int64_t>(count), grid.reach(),
+                                           near.data());
+    for (std::int64_t n = 0; n < found; ++n) {
+      const auto k = static_cast<std::size_t>(near[static_cast<std::size_t>(n)]);
+      const std::int32_t i = std::min(grains[k], partners[k]), j = std::max(grains[k], partners[k]);
       std::vector<std::int32_t>& list = i >= slabs.begin(slab) ? own : before;
       list.push_back(i);
       list.push_back(j);
     }
+    grains.clear();
+    count = 0;
+  };
+  for (std::int32_t g = slabs.begin(slab); g < slabs.end(slab); ++g) {
+    const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
+    count = grid.partners(Vec3(row.x, row.y, row.z), row.radius, g, partners, count);
+    grains.resize(count, g);
+    if (count >= some) sift();
   }
+  sift();
 }
 
 // Of the two ways to see a pair across the boundary one is taken: shifts with a positive number.
@@ -120,7 +127,7 @@ void PairLists::searchAcross(const State& state, const Slabs& slabs, const CellG
     periods.forImages(x, grid.farthest(row.radius), [&](int shift) {
       if (shift < 0) return;
       partners.clear();
-      grid.near(x + periods.shift(shift), row.radius, g, true, partners);
+      grid.near(x + periods.shift(shift), row.radius, g, partners);
       for (const std::int32_t partner : partners) found.push_back({g, partner, -shift});
     });
   }
@@ -279,34 +286,41 @@ void PairLists::refilter(State& state, double innerSkin, ThreadTeam& team) {
 
 void PairLists::filterSlab(State& state, SlabPairs& pairs, double innerSkin) const {
   refreshImages(state, pairs);
-  const std::vector<std::int32_t> oldIndex = std::move(pairs.outerIndex);
-  const std::vector<double> oldMemory = std::move(pairs.memory);
-  const std::size_t oldStride = pairs.stride;
-  pairs.i.clear();
-  pairs.j.clear();
-  pairs.outerIndex.clear();
-  for (std::size_t o = 0; o < pairs.outerI.size(); ++o) {
-    const std::int32_t i = pairs.outerI[o], j = pairs.outerJ[o];
-    if (!nearer(state.rows[static_cast<std::size_t>(i)], state.rows[static_cast<std::size_t>(j)], innerSkin)) continue;
-    if (!pairs.outerTouch.empty() && pairs.outerTouch[o] < 0) continue;
-    pairs.i.push_back(i);
-    pairs.j.push_back(j);
-    pairs.outerIndex.push_back(static_cast<std::int32_t>(o));
+  pairs.outerIndex.swap(pairs.lastIndex);
+  pairs.memory.swap(pairs.lastMemory);
+  std::vector<std::int32_t>& kept = pairs.outerIndex;
+  const auto outer = static_cast<std::int64_t>(pairs.outerI.size());
+  kept.resize(pairs.outerI.size() + 3);
+  kept.resize(static_cast<std::size_t>(
+      kernels().nearPairs(state.rows.data(), pairs.outerI.data(), pairs.outerJ.data(), outer, innerSkin, kept.data())));
+  if (!pairs.outerTouch.empty())
+    std::erase_if(kept, [&](std::int32_t o) { return pairs.outerTouch[static_cast<std::size_t>(o)] < 0; });
+
+  const std::size_t count = kept.size();
+  pairs.i.resize(count);
+  pairs.j.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto o = static_cast<std::size_t>(kept[k]);
+    pairs.i[k] = pairs.outerI[o];
+    pairs.j[k] = pairs.outerJ[o];
   }
   pairs.touch.clear();
   if (!pairs.outerTouch.empty())
-    for (const std::int32_t o : pairs.outerIndex) pairs.touch.push_back(pairs.outerTouch[static_cast<std::size_t>(o)]);
-  if (stateSize_ == 0) return;
-  pairs.stride = pairs.i.size();
-  pairs.memory.assign(pairs.stride * static_cast<std::size_t>(stateSize_), 0.0);
-  // Both inner lists follow the order of the outer one.
+    for (const std::int32_t o : kept) pairs.touch.push_back(pairs.outerTouch[static_cast<std::size_t>(o)]);
+  if (stateSize_ > 0) keepMemory(pairs);
+}
+
+// Memory goes from the last inner list to the present one. Both follow the order of the outer list.
+void PairLists::keepMemory(SlabPairs& pairs) const {
+  const std::size_t count = pairs.outerIndex.size(), before = pairs.lastIndex.size(), stride = pairs.stride;
+  const auto components = static_cast<std::size_t>(stateSize_);
+  pairs.stride = count;
+  pairs.memory.resize(count * components);
   std::size_t was = 0;
-  for (std::size_t k = 0; k < pairs.outerIndex.size(); ++k) {
-    while (was < oldIndex.size() && oldIndex[was] < pairs.outerIndex[k]) ++was;
-    if (was == oldIndex.size()) break;
-    if (oldIndex[was] != pairs.outerIndex[k]) continue;
-    for (int c = 0; c < stateSize_; ++c)
-      pairs.memory[static_cast<std::size_t>(c) * pairs.stride + k] = oldMemory[static_cast<std::size_t>(c) * oldStride + was];
+  for (std::size_t k = 0; k < count; ++k) {
+    while (was < before && pairs.lastIndex[was] < pairs.outerIndex[k]) ++was;
+    const bool known = was < before && pairs.lastIndex[was] == pairs.outerIndex[k];
+    for (std::size_t c = 0; c < components; ++c) pairs.memory[c * count + k] = known ? pairs.lastMemory[c * stride + was] : 0;
   }
 }
 

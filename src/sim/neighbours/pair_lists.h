@@ -31,6 +31,8 @@ struct SlabPairs {
   std::vector<std::int32_t> outerI, outerJ;
   std::vector<std::int32_t> i, j, outerIndex;  ///< inner list, and where each pair is in the outer one
   std::vector<double> memory;                  ///< component c of inner pair k at memory[c * stride + k]
+  std::vector<std::int32_t> lastIndex;         ///< outerIndex and memory of the last inner list: room for the next one
+  std::vector<double> lastMemory;
   std::size_t stride = 0;
   std::vector<double> outerTouch, touch;       ///< m: see PairRange::touch, along each list; empty: none
 
@@ -91,6 +93,7 @@ class PairLists {
   void placeRemembered(const State& state, const std::vector<std::int32_t>& newPlace);
   void handMemory(SlabPairs& pairs) const;
   void filterSlab(State& state, SlabPairs& pairs, double innerSkin) const;
+  void keepMemory(SlabPairs& pairs) const;
 
   int stateSize_;
   bool stale_ = false;
