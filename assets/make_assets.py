@@ -74,6 +74,10 @@ PRESS_RADIUS = 0.020
 PRESS_LENGTH = 0.080
 PRESS_FACETS = 64
 
+# --- piston.obj: solid, a flat plate with a rod on it; the plate's underside is z = 0
+PISTON_PLATE = ((-0.0995, -0.0045, 0.0), (0.0995, 0.0045, 0.012))
+PISTON_ROD = ((-0.009, -0.0045, 0.010), (0.009, 0.0045, 0.090))  # sunk into the plate
+
 
 def circle(radius, count):
     return [(radius * math.cos(2 * math.pi * k / count), radius * math.sin(2 * math.pi * k / count)) for k in range(count)]
@@ -382,6 +386,7 @@ def files():
         "tracks.obj": obj(tracks()),
         "block.obj": obj(box(*BLOCK)),
         "press.obj": obj(press()),
+        "piston.obj": obj(box(*PISTON_PLATE) + box(*PISTON_ROD)),
     }
 
 

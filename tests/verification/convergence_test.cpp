@@ -54,6 +54,15 @@ Scenario squeezed(double e) {
   return s;
 }
 
+/// The same with Hertz's law: the stiffness changes by a third to either side while it swings.
+Scenario squeezedHertz(double e) {
+  Scenario s = squeezed(e);
+  s.model.contact.normal = "hertz";
+  s.model.materials[0].values[Property::youngModulus] = 2e6;
+  s.model.materials[0].values[Property::poissonRatio] = 0.3;
+  return s;
+}
+
 /// The same, drawn sideways by gravity: tangential springs that stick, or slide under a small μ. It starts without slip: a slip in the
 /// first step is met by a spring that belongs half a step earlier (velocity Verlet), see docs/physics.md.
 Scenario squeezedSideways(double e, double mu, const std::string& rolling) {
@@ -92,6 +101,8 @@ struct Case {
 TEST(Convergence, OrdersOfTheIntegrators) {
   const std::array cases{Case{"spring", squeezed(1), {1, 1, 2, 2, 2, 4}},
                          Case{"spring and dashpot, e = 0.5", squeezed(0.5), {1, 1, 1, 1, 2, 4}},
+                         Case{"Hertz", squeezedHertz(1), {1, 1, 2, 2, 2, 4}},
+                         Case{"Hertz and dashpot, e = 0.5", squeezedHertz(0.5), {1, 1, 1, 1, 2, 4}},
                          Case{"sticking", squeezedSideways(1, 100, "none"), {1, 1, 2, 2, 2, 4}},
                          Case{"sticking, damped", squeezedSideways(0.5, 100, "none"), {1, 1, 1, 1, 2, 4}},
                          Case{"sliding", squeezedSideways(0.5, 0.01, "none"), {1, 1, 1, 1, 2, 2}, 0.7},

@@ -2,7 +2,7 @@
 // Rolling resistance of constant torque.
 //
 //   R1   M = −μ_r R* |F_n| ω_rel/|ω_rel|,   ω_rel = ω_i − ω_j
-//   R2   |M| ≤ |ω_rel| / ((1/I_i + 1/I_j) Δt): it can stop the relative spin within a step, never reverse it
+//   R2   |M| ≤ |ω_rel| / (16 (1/I_i + 1/I_j) Δt): at most a sixteenth of what would stop the relative spin within a step
 //
 //   μ_r  rolling friction      R*  effective radius, m      I  moment of inertia, kg m²
 //
@@ -33,7 +33,7 @@ struct ConstantRolling {
   TSUBU_LAW RollingMoment moment(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, NoMemory<Family::rolling>&) {
     const double spin = norm(c.relativeSpin);
     const double limit = p.rollingFriction * c.effectiveRadius * std::abs(normal.force);
-    const double stop = spin / (c.inverseSpinInertia * step.dt);
+    const double stop = shareOfStop * spin / (c.inverseSpinInertia * step.dt);
     const V3 resistance = (smaller(limit, stop) / larger(spin, tiny)) * c.relativeSpin;
     return {-resistance, 0, 0, dot(resistance, c.relativeSpin) * step.dt};
   }

@@ -33,6 +33,10 @@ struct StepOf {
                                                            ///< the loop over contacts a condition of the step alone keeps g++ from vectors
 };
 
+/// T10, R2: a law without memory takes at most this share of a slip or a spin in a step. A grain has several contacts (eight count as the
+/// worst, S3), which may resist both its slip and its spin: together they must not turn round what they resist.
+inline constexpr double shareOfStop = 1.0 / 16;
+
 /// T6: a dashpot of this ratio c/k (s) keeps the tangential and rolling springs of velocity Verlet from gaining energy. They are
 /// stretched by velocities carried on by half a step (I2) and lag a little behind, and a lag gives an oscillation W⁴/4 of its energy
 /// per step, W = ω Δt. The dashpot takes away W_c² W², with W_c = Δt √(k/m) of the contact alone. Of third order in Δt.

@@ -2,7 +2,7 @@
 // Friction from a dashpot alone.
 //
 //   T9   F_t = −η_t v_t,  |F_t| ≤ μ |F_n|,   η_t = m* γ_t
-//   T10  |F_t| ≤ (2/7) m* |v_t|/Δt: it can stop the slip of two spheres within a step, never reverse it
+//   T10  |F_t| ≤ (2/7) m* |v_t|/(16 Δt): at most a sixteenth of what would stop the slip of two spheres within a step
 //
 // No memory: it slows sliding and holds nothing at rest, so a heap flows away like honey.
 //
@@ -30,7 +30,7 @@ struct ViscousFriction {
 
   TSUBU_LAW TangentialForce force(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, NoMemory<Family::tangential>&) {
     const double speed = norm(c.slip);
-    const double damping = smaller(p.dampingPerMass, (2.0 / 7.0) * step.perSecond) * c.effectiveMass;
+    const double damping = smaller(p.dampingPerMass, shareOfStop * (2.0 / 7.0) * step.perSecond) * c.effectiveMass;
     const double limit = p.friction * std::abs(normal.force);
     const double keep = damping * speed > limit ? limit / larger(damping * speed, tiny) : 1.0;
     const double work = keep * damping * speed * speed * step.dt;

@@ -2,7 +2,7 @@
 // Viscous rolling resistance.
 //
 //   R6   M = −μ_v R*² |F_n| ω_r      ω_r  relative spin without its part about n, rad/s
-//   R2   |M| ≤ |ω_r| / ((1/I_i + 1/I_j) Δt)
+//   R2   |M| ≤ |ω_r| / (16 (1/I_i + 1/I_j) Δt)
 //
 //   μ_v  rolling viscosity, s/m: the lever of the normal force is R* times μ_v times the rolling speed R* ω_r
 //
@@ -31,7 +31,7 @@ struct ViscousRolling {
   TSUBU_LAW RollingMoment moment(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, NoMemory<Family::rolling>&) {
     const V3 rolling = c.relativeSpin - dot(c.relativeSpin, c.n) * c.n;
     const double wanted = p.viscosity * c.effectiveRadius * c.effectiveRadius * std::abs(normal.force);
-    const V3 resistance = smaller(wanted, 1 / (c.inverseSpinInertia * step.dt)) * rolling;
+    const V3 resistance = smaller(wanted, shareOfStop / (c.inverseSpinInertia * step.dt)) * rolling;
     return {-resistance, 0, 0, dot(resistance, rolling) * step.dt};
   }
 };

@@ -39,6 +39,7 @@ INSTANTIATE_TEST_SUITE_P(Meshes, Asset,
                                          Expected{"gate.obj", 1, 4, 4, {-0.564, -0.1, 0.317}, {-0.516, 0.1, 0.393}},
                                          Expected{"block.obj", 6, 12, 8, {-0.06, -0.05, -0.06}, {0, 0.05, 0.06}},
                                          Expected{"press.obj", 64 + 2, 3 * 64, 2 * 64, {-0.02, -0.04, -0.02}, {0.02, 0.04, 0.02}},
+                                         Expected{"piston.obj", 2 * 6, 2 * 12, 2 * 8, {-0.0995, -0.0045, 0}, {0.0995, 0.0045, 0.09}},
                                          Expected{"table.gltf", 5 * 6, 5 * 12, 5 * 8, {-0.25, -0.08, -0.1}, {0.25, 0.08, 0}}),
                          [](const auto& mesh) {
                            std::string name = mesh.param.name;
