@@ -76,7 +76,7 @@ PRESS_FACETS = 64
 
 # --- piston.obj: solid, a flat plate with a rod on it; the plate's underside is z = 0
 PISTON_PLATE = ((-0.0995, -0.0045, 0.0), (0.0995, 0.0045, 0.012))
-PISTON_ROD = ((-0.009, -0.0045, 0.010), (0.009, 0.0045, 0.090))  # sunk into the plate
+PISTON_ROD = ((-0.009, -0.0030, 0.010), (0.009, 0.0030, 0.090))  # sunk into the plate
 
 
 def circle(radius, count):

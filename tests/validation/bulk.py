@@ -18,8 +18,8 @@ THREADS = os.environ.get("TSUBU_VALIDATION_THREADS", "2")
 PI = math.pi
 
 
-def simulate(scene, folder, *options):
-    result = subprocess.run([PROGRAM, "run", str(scene), "-o", str(folder), "--no-frames", "--threads", THREADS, *options],
+def simulate(scene, folder, *options, frames=False):
+    result = subprocess.run([PROGRAM, "run", str(scene), "-o", str(folder), *([] if frames else ["--no-frames"]), "--threads", THREADS, *options],
                             capture_output=True, text=True, timeout=3600)
     if result.returncode != 0:
         raise AssertionError(result.stderr)
@@ -120,74 +120,6 @@ class Bulk(unittest.TestCase):
               f"{expected:.3f} kg if all friction were at work, from K = {ratio:.2f} and bulk density {density:.0f} kg/m3")
         self.assertLess(measured, 0.7 * bottom(1.8, 1.9))
         self.assertGreater(measured, expected)
-
-    BEVERLOO = """
-[simulation]
-end = {end}
-integrator = "symplectic_euler"
-safety = 0.6
-overlap_limit = 0.3
-ledger = false
-domain = {{ min = [-0.5, -0.5, -0.3], max = [0.5, 0.5, 1] }}
-[contact]
-[materials]
-bead = {{ density = 2500 }}
-[pairs]
-normal_stiffness = 3000
-restitution = 0.5
-friction = 0.5
-[grains.bed]
-source = "packing"
-cylinder = {{ base = [0, 0, 0.001], top = [0, 0, {top}], radius = {radius} }}
-fill = 0.40
-radius = {{ min = "2.8 mm", max = "3.2 mm" }}
-[walls.silo]
-mesh = "silo.obj"
-[walls.plug]
-mesh = "plug.obj"
-motion = {{ kind = "translate", velocity = [0, 0, -4], start = {opens} }}
-[sinks.below]
-box = {{ min = [-1, -1, -0.29], max = [1, 1, -0.06] }}
-[counters.outlet]
-point = [0, 0, -0.01]
-[diagnostics]
-every = 5
-regions = {{ bed = {{ box = {{ min = [-0.04, -0.04, 0.02], max = [0.04, 0.04, 0.07] }} }} }}
-[output]
-frame_interval = "10 ms"
-"""
-
-    def discharge(self, ratio):
-        """kg/s through a hole of this many grain diameters, and kg/m³ of the bed before it opens."""
-        d, opens = 0.006, 0.35
-        radius, hole = 15 * d, ratio * d / 2
-        write_obj(self.path / "silo.obj", band(ring(hole, 0), ring(radius, 0)) + band(ring(radius, 0), ring(radius, 0.5)))
-        write_obj(self.path / "plug.obj", [ring(hole * 1.02, -0.0001)])
-        flowing = 0.30 if ratio > 12 else 0.5
-        text = self.BEVERLOO.format(end=opens + flowing, opens=opens, radius=radius - 0.0005, top=(0.27 if ratio > 12 else 0.2))
-        (self.path / "silo.toml").write_text(text)
-        out = self.path / f"out{ratio}"
-        simulate(self.path / "silo.toml", out)
-        bed = [row for row in table(out / "diagnostics.csv") if row["region"] == "bed" and abs(row["time_s"] - opens) < 1e-6][0]
-        rows = [row for row in table(out / "ledger.csv") if opens + 0.14 <= row["time_s"] <= opens + flowing]
-        mean_volume = 4 / 3 * PI * (0.0028**2 + 0.0032**2) * (0.0028 + 0.0032) / 4  # of radii uniform in an interval
-        rate, _, _ = line([row["time_s"] for row in rows], [row["counted_outlet"] for row in rows])
-        return rate * 2500 * mean_volume, 2500 * bed["solid_fraction"]
-
-    def test_beverloo(self):
-        """Discharge of a flat-bottomed silo: Q = C ρ_b √g (D − k d)^(5/2) with k = 1.4."""
-        d, k, g = 0.006, 1.4, 9.81
-        points = []
-        print()
-        for ratio in (6, 8, 11, 15, 20):
-            rate, density = self.discharge(ratio)
-            constant = rate / (density * math.sqrt(g) * ((ratio - k) * d) ** 2.5)
-            points.append((math.log(ratio - k), math.log(rate), constant))
-            print(f"Beverloo: D/d {ratio}: {rate:.4f} kg/s, bulk density {density:.0f} kg/m3, C {constant:.3f}", flush=True)
-        exponent, _, deviation = line([p[0] for p in points], [p[1] for p in points])
-        print(f"Beverloo: exponent {exponent:.3f}, rms deviation {100 * deviation:.1f} %")
-        self.assertAlmostEqual(exponent, 2.5, delta=0.15)
-        self.assertTrue(all(0.5 < p[2] < 0.7 for p in points))
 
     HAFF = """
 [simulation]
