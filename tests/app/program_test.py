@@ -125,6 +125,56 @@ grid = { box = { min = [-0.02, -0.02, 0], max = [0.12, 0.02, 0.12] }, cells = { 
         self.assertEqual(self.report()["state_hash"], measured)
         self.assertFalse((self.out / "diagnostics.csv").exists() or (self.out / "grid.csv").exists())
 
+    def test_files_hold_numbers_also_when_there_is_no_grain(self):
+        """Before the first grain comes there is no mean, no share and no centre: nothing of that may be "not a number"."""
+        self.scene.write_text("""
+[simulation]
+end = 0.02
+[materials]
+ball = { density = 1000, conductivity = 1, heat_capacity = 800 }
+[heat]
+[pairs]
+normal_stiffness = 1e3
+restitution = 0.8
+friction = 0.3
+[grains.late]
+source = "stream"
+box = { min = [0, 0, 0.05], max = [0.02, 0.02, 0.07] }
+rate = "1000 grains/s"
+start = 0.012
+radius = "1 mm"
+[walls.floor]
+plane = {}
+[counters.plane]
+point = [0, 0, 0.01]
+[diagnostics]
+regions = { below = { box = { min = [0, 0, 0], max = [0.02, 0.02, 0.03] } } }
+grid = { box = { min = [0, 0, 0], max = [0.02, 0.02, 0.1] }, cells = { z = 4 } }
+[observe]
+rate = { kind = "discharge_rate", counter = "plane" }
+empty = { kind = "time_to_empty", counter = "plane" }
+slope = { kind = "angle_of_repose" }
+mixing = { kind = "mixing", material = "ball", cell = "1 cm" }
+residual = { kind = "energy_residual" }
+[show]
+forces = "all"
+[colours]
+by = "temperature"
+[picture]
+width = 64
+height = 36
+[output]
+frame_interval = 0.004
+""")
+        result = run("run", self.scene, "-o", self.out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertGreater(self.report()["grains"], 0)
+        names = sorted(path.name for path in self.out.iterdir() if path.suffix == ".csv")
+        self.assertEqual(names, ["diagnostics.csv", "grid.csv", "ledger.csv", "walls.csv"])
+        for name in names:
+            self.assertNotRegex((self.out / name).read_text().lower(), r"\b(nan|inf)\b", name)
+        json.loads((self.out / "run.json").read_text(), parse_constant=lambda word: self.fail(f"{word} in run.json"))
+
     def test_results_depend_on_neither_threads_nor_isa_nor_frames(self):
         hashes = set()
         for options in (["--no-frames", "--threads", 1], ["--no-frames", "--threads", 3], ["--no-frames", "--isa", "portable"], [],
