@@ -11,6 +11,7 @@
 #include "app/chosen_setting.h"
 #include "app/messages.h"
 #include "app/run.h"
+#include "app/stability.h"
 #include "app/tradeoff.h"
 #include "app/version.h"
 #include "core/error.h"
@@ -28,6 +29,7 @@ struct Commands {
   CLI::App* check;
   CLI::App* reference;
   CLI::App* tradeoff;
+  CLI::App* stability;
 };
 
 void addSceneOptions(CLI::App& command, std::string& scene, scene::Overrides& overrides) {
@@ -58,9 +60,12 @@ Commands describe(CLI::App& app, RunOptions& options, TradeoffOptions& study) {
                     app.add_subcommand("explain", "Print the plan of a scene: what is modelled, what it costs"),
                     app.add_subcommand("check", "Validate a scene and its files, and run nothing"),
                     app.add_subcommand("reference", "Print the reference of scene files (Markdown)"),
-                    app.add_subcommand("tradeoff", "Measure what speed costs in accuracy: the scene at many settings")};
+                    app.add_subcommand("tradeoff", "Measure what speed costs in accuracy: the scene at many settings"),
+                    app.add_subcommand("stability", "Find the step at which a scene blows up, against the rules that predict it")};
   for (CLI::App* command : {commands.run, commands.explain, commands.check}) addSceneOptions(*command, options.scene, options.overrides);
   addTradeoffOptions(*commands.tradeoff, study);
+  addSceneOptions(*commands.stability, options.scene, options.overrides);
+  commands.stability->add_option("--at", options.until, "Try the state that the scene has at this time, in seconds (its end when not given)")->check(CLI::NonNegativeNumber);
   for (CLI::App* command : {commands.run, commands.explain}) {
     command->add_option("--accuracy", options.accuracy, "The cheapest setting that the study of the scene has found to be within this: 2% (see tradeoff)");
     command->add_option("--quality", options.quality, "draft, standard or reference: a setting of the study of the scene");
@@ -78,6 +83,7 @@ Commands describe(CLI::App& app, RunOptions& options, TradeoffOptions& study) {
 int execute(const Commands& commands, const RunOptions& options, const TradeoffOptions& study) {
   if (*commands.tradeoff) return tradeoff(study);
   if (*commands.run) return run(options);
+  if (*commands.stability) return stability(options);
   if (*commands.reference) {
     fmt::print("{}", scene::writeReference());
     return 0;

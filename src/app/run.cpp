@@ -82,6 +82,7 @@ Run::Run(const RunOptions& options) : options_(options) {
   report_.threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   report_.isa = sim::kernels().isa;
   report_.plan = built.plan;
+  report_.singleContact = sim::singleContactRules(built.model);
   report_.slowMotion = scene::slowMotion(scene.output);
   report_.frameRate = scene.output.fps;
   report_.ledger = scene.simulation.ledger;

@@ -24,6 +24,8 @@ void writeReport(const std::filesystem::path& path, const RunReport& r) {
   json["dt"] = r.plan.timeStep;
   json["dt_limit"] = r.plan.limit;
   json["dt_limit_by"] = r.plan.limitedBy;
+  if (std::isfinite(r.singleContact.undamped))
+    json["dt_of_single_contact_rules"] = {{"note", r.singleContact.note}, {"undamped", r.singleContact.undamped}, {"duration", r.singleContact.duration}};
   json["steps"] = r.steps;
   json["simulated_time"] = r.simulatedTime;
   json["wall_time"] = r.wallTime;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/build.h"
+#include "sim/network.h"
 #include "sim/simulation.h"
 #include "study/observer.h"
 
@@ -21,6 +22,7 @@ struct RunReport {
   std::string ended;         ///< "complete", "interrupted" or "failed"
   std::string failure;       ///< why, when it failed
   scene::FramePlan plan;
+  sim::SingleContactRules singleContact{};  ///< what they would have allowed
   double slowMotion = 1;
   double frameRate = 30;     ///< of the film, 1/s
   std::uint64_t steps = 0;

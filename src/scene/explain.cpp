@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/laws/catalogue.h"
+#include "sim/network.h"
 #include "sim/simulation.h"
 
 namespace tsubu::scene {
@@ -39,6 +41,14 @@ double expectedFromStreams(const sim::Model& model, double end) {
     total += std::min(number, static_cast<double>(stream.count));
   }
   return total;
+}
+
+// By how much the rules of the literature for one contact would have missed.
+std::string singleContactLine(const sim::Model& model, double limit) {
+  const sim::SingleContactRules rules = sim::singleContactRules(model);
+  if (!std::isfinite(rules.undamped)) return {};
+  return fmt::format("one contact    rules for a single contact would allow {:.2g} (Note), {:.2g} (2√(m/k)), {:.2g} (π√(m/k)) times that limit\n",
+                     rules.note / limit, rules.undamped / limit, rules.duration / limit);
 }
 
 std::string lawLines(const Scene& scene) {
@@ -77,6 +87,7 @@ std::string explain(const Scene& scene, const Built& built) {
   text += fmt::format("memory         {} bytes per grain, {} per contact, {} per listed pair: about {:.3g} MB\n", plan.bytesPerGrain,
                       plan.bytesPerContact, plan.bytesPerListedPair, memory / 1e6);
   text += fmt::format("time step      {:.6g} s, set by {} (stability limit {:.4g} s)\n", frames.timeStep, frames.limitedBy, frames.limit);
+  text += singleContactLine(built.model, frames.limit);
   text += fmt::format("steps          {} for {:g} s\n", frames.steps, static_cast<double>(frames.steps) * frames.timeStep);
   text += fmt::format("frames         {} of {} x {} pixels, one every {:g} s ({} steps), slow motion {:g}\n", frames.frames,
                       scene.picture.width, scene.picture.height, frames.interval, frames.stepsPerFrame, slowMotion(scene.output));

@@ -296,6 +296,14 @@ height = { kind = "centre_of_mass" }
             self.assertIn(word, explained)
         self.assertEqual(run("run", self.scene, "--accuracy", "none").returncode, 2)
 
+    def test_stability_of_a_ball_on_the_floor(self):
+        self.scene.write_text(SCENE.replace("restitution = 0.8", "restitution = 0.3"))
+        result = run("stability", self.scene, "--set", "simulation.end=1", "--set", "grains.balls.positions=[[0, 0, 0.0199]]")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("spectral", result.stdout)
+        self.assertIn("1 grain, 1 contact\n", result.stdout)
+        self.assertEqual(run("stability", self.scene, "--at", "0").returncode, 2)
+
     def test_tradeoff_of_features(self):
         result = run("tradeoff", self.scene, "-o", self.out, "--features", "--budget", "60s")
         self.assertEqual(result.returncode, 0, result.stderr)
