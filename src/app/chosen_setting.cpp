@@ -1,7 +1,6 @@
 #include "app/chosen_setting.h"
 
 #include <charconv>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -12,9 +11,7 @@ namespace tsubu::app {
 
 namespace {
 
-std::filesystem::path fileOf(const RunOptions& options) {
-  return (options.study.empty() ? study::folderOf(options.scene) : std::filesystem::path(options.study)) / "tradeoff.json";
-}
+std::filesystem::path fileOf(const RunOptions& options) { return studyFolder(options) / "tradeoff.json"; }
 
 study::SavedStudy ownStudy(const RunOptions& options) {
   study::SavedStudy study = study::readStudy(fileOf(options), options.scene);
@@ -23,6 +20,10 @@ study::SavedStudy ownStudy(const RunOptions& options) {
 }
 
 }  // namespace
+
+std::filesystem::path studyFolder(const RunOptions& options) {
+  return options.study.empty() ? study::folderOf(options.scene) : std::filesystem::path(options.study);
+}
 
 double shareOf(const std::string& text) {
   double value = 0;

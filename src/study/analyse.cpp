@@ -85,7 +85,8 @@ void analyseObservable(Study& study, std::size_t k) {
   };
 
   // Half the step against the whole: for any order ≥ 1 the reference is not farther from the limit than the two from each other.
-  const Compared refinement = usable(study.points[2]) ? compare(study.points[2], reference, k) : Compared{};
+  const Point* const half = study.refinement();
+  const Compared refinement = half && usable(*half) ? compare(*half, reference, k) : Compared{};
   const bool refined = !refinement.differences.empty() && !refinement.missed;
   info.bar = refined ? std::abs(meanOf(refinement.differences)) / info.scale : 0;
   for (Point& point : study.points) {
@@ -146,7 +147,7 @@ void analyse(Study& study) {
     for (const auto& [seed, outcome] : point.outcomes) cost += outcome.cost / static_cast<double>(point.outcomes.size());
     point.cost = point.ran() ? cost : std::numeric_limits<double>::quiet_NaN();
   }
-  if (study.points.size() < 3 || !usable(study.reference())) return;
+  if (study.points.size() < (study.request.features ? 1U : 3U) || !usable(study.reference())) return;
   const std::size_t observables = study.reference().outcomes.begin()->second.values.size();
   for (std::size_t k = 0; k < observables; ++k) analyseObservable(study, k);
   markFront(study.points);

@@ -100,7 +100,7 @@ std::string tableOf(const Study& study) {
                                  study.request.scene, study.scene().cost, study.safety, study.seeds, study.seeds == 1 ? "" : "s");
   if (!study.complete) text += "Interrupted: the same command goes on where this one was.\n";
   if (study.observables.empty()) return text + "Nothing can be compared yet: there is no reference.\n";
-  text += "Reference\n";
+  text += study.request.features ? "The scene as it is, with which all others are compared\n" : "Reference\n";
   for (const ObservableInfo& o : study.observables) text += "  " + valueOf(o) + "\n";
 
   std::vector<std::vector<std::string>> rows{{"", "setting", "CPU s", "cost"}};
@@ -117,6 +117,8 @@ std::string tableOf(const Study& study) {
     rows.push_back(row);
   }
   text += "\n" + aligned(rows) + "* on the front: nothing is both cheaper and more accurate. none: within the noise of the seeds and the error bar.\n";
+  for (const PictureQuality& picture : study.pictures)
+    text += fmt::format("picture        {:<8}{:.3g} s of CPU a frame, {} from the finest (root mean square)\n", picture.quality, picture.cost, percent(picture.error));
   for (const Point& point : study.points) {
     if (!point.refused.empty()) text += fmt::format("not possible   {}: {}\n", point.label, point.refused);
     if (!point.failure().empty()) text += fmt::format("failed         {}: {}\n", point.label, point.failure());
@@ -163,6 +165,8 @@ void writeStudy(const std::filesystem::path& file, const Study& study) {
                                    {"error_bar", o.bar}, {"scale", jsonOf(o.scale)}, {"reached", o.known}});
   json["points"] = Json::array();
   for (const Point& point : study.points) json["points"].push_back(jsonOfPoint(study, point));
+  for (const PictureQuality& picture : study.pictures)
+    json["pictures"].push_back({{"quality", picture.quality}, {"cpu_seconds_per_frame", picture.cost}, {"error", picture.error}});
   json["left_out"] = study.leftOut;
   json["notes"] = study.notes;
   writeJson(file, json);

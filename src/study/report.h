@@ -56,6 +56,10 @@ const SavedPoint& pointOfQuality(const SavedStudy& study, const std::string& qua
 /// Throws Error(scene) when the scene with these overrides is not the one that was studied: seed, end and pictures apart.
 void refuseOtherScene(const SavedStudy& study, const std::string& scene, const scene::Overrides& overrides, const std::string& version);
 
+/// What `tsubu tradeoff --features` has found, for `tsubu explain`: which features the scene notices. Empty when there is no such study of this
+/// scene in the folder.
+std::string noticedOf(const std::filesystem::path& folder, const std::string& scene, const scene::Overrides& overrides, const std::string& version);
+
 /// "step 0.9: 1.2 s of CPU, rate within 2.1 %"
 std::string describe(const SavedPoint& point);
 

@@ -109,4 +109,25 @@ std::string qualitiesOf(const SavedStudy& study) {
   return text;
 }
 
+std::string noticedOf(const std::filesystem::path& folder, const std::string& scene, const scene::Overrides& overrides, const std::string& version) {
+  std::ifstream stream(folder / "features.json");
+  const nlohmann::json json = stream ? nlohmann::json::parse(stream, nullptr, false) : nlohmann::json();
+  try {
+    if (!stream || keyOfStudy({scene, overrides}, json.at("end"), version) != json.at("scene_key")) return {};
+    std::string text = fmt::format("features       as measured in {}\n", (folder / "features.json").string());
+    for (const auto& point : json.at("points")) {
+      if (point.at("axis") != "features" || point.contains("refused") || (point.at("errors").empty() && !point.contains("failed"))) continue;
+      std::string noticed;
+      for (const auto& [name, error] : point.at("errors").items())
+        if (!error.at("none").get<bool>())
+          noticed += fmt::format("{}{} {}", noticed.empty() ? "" : ", ", name, error.at("error").is_null() ? "not reached" : percent(numberIn(error.at("error"))));
+      const std::string what = point.contains("failed") ? "the run fails" : noticed.empty() ? "makes no difference" : "changes " + noticed;
+      text += fmt::format("  {:<28}{}\n", point.at("label").get<std::string>(), what);
+    }
+    return text;
+  } catch (const nlohmann::json::exception&) {
+    return {};  // no study, then
+  }
+}
+
 }  // namespace tsubu::study

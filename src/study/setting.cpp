@@ -180,6 +180,7 @@ scene::Overrides overridesOf(const Setting& setting, const scene::Scene& scene) 
     if (scene.simulation.timeStep) writer.set({"simulation", "time_step"}, "auto");
     writer.set({"simulation", "safety"}, *setting.safety);
   }
+  if (setting.timeStep) writer.set({"simulation", "time_step"}, *setting.timeStep);
   if (setting.integrator) writer.set({"simulation", "integrator"}, *setting.integrator);
   const std::pair<const char*, const std::optional<std::string>*> laws[] = {
       {"normal", &setting.normal}, {"tangential", &setting.tangential}, {"rolling", &setting.rolling}, {"twisting", &setting.twisting}};
@@ -245,8 +246,10 @@ Axis axisOf(const std::string& name, const scene::Scene& scene) {
   if (name == "law") return byName(name, othersIn("normal", scene), with(&Setting::normal));
   if (name == "memory") return byName(name, othersIn("tangential", scene), with(&Setting::tangential));
   if (name == "rolling") return byName(name, othersIn("rolling", scene), with(&Setting::rolling));
-  const auto nearest = nearestName(name, axisNames());
-  throw Error(ErrorKind::scene, fmt::format("There is no axis '{}': expected {}.", name, listNames(axisNames())),
+  std::vector<std::string> known = axisNames();
+  known.emplace_back("picture");
+  const auto nearest = nearestName(name, known);
+  throw Error(ErrorKind::scene, fmt::format("There is no axis '{}': expected {}.", name, listNames(known)),
               nearest ? fmt::format("did you mean '{}'?", *nearest) : std::string());
 }
 
@@ -267,7 +270,7 @@ std::vector<Feature> featuresOf(const scene::Scene& scene) {
   features.push_back({"memory of contacts", memory, unless(rubs && contact.tangential != "viscous", "any")});
   features.push_back({"rotation", {}, rubs ? "with friction grains turn, and without they do not: see friction" : "the scene does not model it"});
   tension.tension = !contact.tension;
-  features.push_back({contact.tension ? "tension" : "no tension", tension, {}});
+  features.push_back({contact.tension ? "tension" : "one-sided contacts", tension, {}});
   equal.equalGrains = true;
   features.push_back({"sizes of grains", equal, {}});
   return features;
@@ -276,6 +279,7 @@ std::vector<Feature> featuresOf(const scene::Scene& scene) {
 Setting combined(const Setting& first, const Setting& second) {
   Setting both = first;
   if (second.safety) both.safety = second.safety;
+  if (second.timeStep) both.timeStep = second.timeStep;
   if (second.integrator) both.integrator = second.integrator;
   if (second.normal) both.normal = second.normal;
   if (second.tangential) both.tangential = second.tangential;

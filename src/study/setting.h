@@ -12,6 +12,7 @@ namespace tsubu::study {
 /// Differences from the scene. Every member leaves things as they are by default.
 struct Setting {
   std::optional<double> safety;  ///< the time step as a share of the stability limit
+  std::optional<double> timeStep;  ///< s: instead
   std::optional<std::string> integrator;
   std::optional<std::string> normal, tangential, rolling, twisting;  ///< laws
   std::optional<bool> tension;

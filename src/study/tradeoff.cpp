@@ -23,6 +23,8 @@ constexpr double shareOfReference = 0.4;
 constexpr double referenceSteps[] = {0.01, 0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45};
 // A trial that takes longer than it should may overrun the budget by so much before it is broken off.
 constexpr double grace = 1.1;
+// The scene as it is, a reference of half its step, and its refinement.
+constexpr double leastTrials = 4;
 
 // Not the state: grains may be painted differently where they move alike.
 bool sameValues(const Outcome& a, const Outcome& b) {
@@ -91,6 +93,7 @@ class Runner {
     if (!point.refused.empty() || point.outcomes.count(job.seed)) return;
     const Trial trial = trialOf(point, job.seed);
     const double cost = expected(point);
+    const bool pilot = study_.scene().outcomes.empty();
     lock.unlock();
     try {
       std::optional<Outcome> outcome = store_.find(trial);
@@ -104,7 +107,7 @@ class Runner {
         lock.unlock();
         if (!allowed) return;
         const Stop stop = [&] { return broken() || (!must && used() > grace * request_.budget); };
-        outcome = study::run(trial, stop);
+        outcome = study::run(trial, stop, pilot ? Watch([this](double done, double spent) { return tooLong(done, spent); }) : Watch());
         if (outcome) store_.keep(trial, *outcome);
         lock.lock();
         underway_ -= cost;
@@ -123,6 +126,16 @@ class Runner {
       if (!lock.owns_lock()) lock.lock();
       point.refused = error.diagnostics().front().message;
     }
+  }
+
+  // The first trial of all: when it has run for a while it is known what it will take, and a study is four of them at least.
+  bool tooLong(double done, double cost) const {
+    const double whole = cost / std::max(done, 1e-9);
+    if (cost < 3 || leastTrials * whole / request_.threads <= request_.budget) return false;
+    throw Error(ErrorKind::scene,
+                fmt::format("One trial takes about {:.2g} s of CPU, and a study {:.0f} of them at least: more than the budget of {:.3g} s.", whole,
+                            leastTrials, request_.budget),
+                "give more --budget, a shorter --until, or fewer grains");
   }
 
   void leaveOut(const Point& point) {
@@ -158,11 +171,22 @@ class Planner {
     Runner runner(study_, scene_, stop_, tell_);
     add("scene", 0, {}, "as it is");
     runner.run({{0, 1}}, true);
-    if (study_.complete) chooseReference();
-    if (study_.complete) runReference(runner);
-    if (study_.complete) request().features ? runFeatures(runner) : runAxes(runner);
-    analyse(study_);
-    if (study_.complete && !request().features) runTogether(runner);
+    if (study_.complete) lookAtPilot();
+    if (study_.complete) findRandomness(runner);
+    if (request().features) {
+      if (study_.complete) runFeatures(runner);
+    } else {
+      if (study_.complete) chooseReference();
+      if (study_.complete) runReference(runner);
+      if (study_.complete) runAxes(runner);
+      analyse(study_);
+      if (study_.complete) runTogether(runner);
+    }
+    if (study_.complete && std::find(request().axes.begin(), request().axes.end(), "picture") != request().axes.end()) {
+      const auto pictures = comparePictures({request().scene, request().overrides}, stop_);
+      study_.complete = pictures.has_value();
+      if (pictures) study_.pictures = *pictures;
+    }
     analyse(study_);
     study_.used = runner.used();
     return std::move(study_);
@@ -192,11 +216,15 @@ class Planner {
     return jobs;
   }
 
-  // As fine as a share of the budget allows, but at least half the scene's own step.
-  void chooseReference() {
+  void lookAtPilot() {
     const Outcome& pilot = study_.scene().outcomes.begin()->second;
     if (!pilot.complete()) throw Error(ErrorKind::simulation, "The scene as it is does not run to its end: " + pilot.failure);
     study_.safety = pilot.timeStep / pilot.limit;
+  }
+
+  // As fine as a share of the budget allows, but at least half the scene's own step.
+  void chooseReference() {
+    const Outcome& pilot = study_.scene().outcomes.begin()->second;
     const double perShare = pilot.cost * study_.safety;  // CPU seconds of a trial, times the share of the limit
     const double budget = shareOfReference * request().budget * request().threads;
     const auto costs = [&](double share, int seeds) { return 1.5 * seeds * perShare / share; };
@@ -212,7 +240,7 @@ class Planner {
                   fmt::format("The budget of {:.3g} s is too small: one trial takes {:.3g} s of CPU, and a reference at half its step with "
                               "its refinement {:.3g} s.", request().budget, pilot.cost, costs(0.5 * study_.safety, 1)),
                   "give more --budget, or a shorter --until");
-    if (study_.seeds == 1) study_.notes.push_back("With one seed the noise is not known: a difference may be chance.");
+    if (study_.seeds == 1 && study_.random) study_.notes.push_back("With one seed the noise is not known: a difference may be chance.");
     if (study_.seeds < request().seeds)
       study_.notes.push_back(fmt::format("The budget allows {} of {} seeds.", study_.seeds, request().seeds));
     Setting finest, half;
@@ -222,20 +250,21 @@ class Planner {
     add("refinement", 2 * share, half, fmt::format("step {:.3g}", 2 * share));
   }
 
+  // Does another seed make another run? If not, one is enough.
+  void findRandomness(Runner& runner) {
+    if (study_.seeds == 1) return;
+    runner.run({{0, 2}}, true);
+    if (!study_.complete) return;
+    const auto& seen = study_.scene().outcomes;
+    if (!sameValues(seen.at(1), seen.at(2))) return;
+    study_.random = false;
+    study_.seeds = 1;
+    study_.points[0].outcomes.erase(2);
+    study_.notes.clear();
+    study_.notes.push_back("Nothing in this scene is random: all seeds give the same run, and one is enough.");
+  }
+
   void runReference(Runner& runner) {
-    // Does another seed make another run? If not, one is enough.
-    if (study_.seeds > 1) {
-      runner.run({{0, 2}}, true);
-      const auto& seen = study_.scene().outcomes;
-      if (!study_.complete) return;
-      if (sameValues(seen.at(1), seen.at(2))) {
-        study_.random = false;
-        study_.seeds = 1;
-        study_.points[0].outcomes.erase(2);
-        study_.notes.clear();
-        study_.notes.push_back("Nothing in this scene is random: all seeds give the same run, and one is enough.");
-      }
-    }
     std::vector<Job> jobs = jobsOf(1);
     for (const std::size_t point : {std::size_t{2}, std::size_t{0}})
       for (const Job& job : jobsOf(point)) jobs.push_back(job);
@@ -246,7 +275,8 @@ class Planner {
 
   void runAxes(Runner& runner) {
     std::vector<Axis> axes;
-    for (const std::string& name : request().axes.empty() ? axisNames() : request().axes) axes.push_back(axisOf(name, scene_));
+    for (const std::string& name : request().axes.empty() ? axisNames() : request().axes)
+      if (name != "picture") axes.push_back(axisOf(name, scene_));
     std::size_t longest = 0;
     for (const Axis& axis : axes) longest = std::max(longest, axis.places.size());
     // The n-th place of every axis before the next of any; coarse ones first, since they are cheap and what people do.
@@ -279,9 +309,11 @@ class Planner {
   }
 
   void runFeatures(Runner& runner) {
-    std::vector<Job> jobs;
-    for (const Feature& feature : featuresOf(scene_)) {
+    std::vector<Job> jobs = jobsOf(0);
+    for (Feature feature : featuresOf(scene_)) {
       const std::string label = "without " + feature.name;
+      // With the step of the scene: what is left might bear a longer one, and its error would be taken for that of the feature.
+      feature.without.timeStep = study_.scene().outcomes.begin()->second.timeStep;
       const std::size_t point = feature.impossible.empty() ? add("features", 0, feature.without, label) : study_.points.size();
       if (!feature.impossible.empty()) {
         Point refused;

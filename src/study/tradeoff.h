@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "study/pictures.h"
 #include "study/setting.h"
 #include "study/trial.h"
 
@@ -17,7 +18,7 @@ namespace tsubu::study {
 struct Request {
   std::string scene;           ///< path
   scene::Overrides overrides;  ///< of the user: the scene as it is
-  std::vector<std::string> axes;  ///< empty: all of them
+  std::vector<std::string> axes;  ///< empty: all of them but "picture", which is of frames and not of the simulation
   bool features = false;       ///< switch features off instead of turning knobs
   double budget = 600;         ///< s of this machine: CPU time of all trials over the number of threads
   int seeds = 3;
@@ -78,6 +79,7 @@ struct Study {
   double safety = 0;                ///< of the scene as it is: Δt over the limit
   std::vector<Point> points;        ///< the scene first, then reference and refinement
   std::vector<ObservableInfo> observables;
+  std::vector<PictureQuality> pictures;  ///< from the finest; empty unless the axis "picture" is named
   std::vector<std::string> leftOut; ///< by the budget
   std::vector<std::string> notes;
   double used = 0;                  ///< s of the budget
@@ -85,7 +87,9 @@ struct Study {
   bool complete = true;             ///< false when interrupted
 
   const Point& scene() const { return points[0]; }
-  const Point& reference() const { return points[1]; }
+  /// A feature is switched off against the scene as it is, at its own step: what a finer one would say is not asked.
+  const Point& reference() const { return points[request.features ? 0 : 1]; }
+  const Point* refinement() const { return request.features || points.size() < 3 ? nullptr : &points[2]; }
 };
 
 /// Told after every trial: what it was, and how far the plan has come.

@@ -44,7 +44,7 @@ std::string commandOf(const Trial& trial) {
   return command;
 }
 
-std::optional<Outcome> run(const Trial& trial, const Stop& stop) {
+std::optional<Outcome> run(const Trial& trial, const Stop& stop, const Watch& watch) {
   const scene::Scene scene = scene::read(trial.scene, trial.overrides);
   scene::Built built = scene::build(scene);
   const scene::FramePlan plan = built.plan;
@@ -66,6 +66,7 @@ std::optional<Outcome> run(const Trial& trial, const Stop& stop) {
       const std::uint64_t next = std::min((step / plan.stepsPerLedgerRow + 1) * plan.stepsPerLedgerRow, plan.steps);
       while (simulation->steps() < next) {
         if (stop && stop()) return std::nullopt;
+        if (watch && watch(static_cast<double>(simulation->steps()) / static_cast<double>(plan.steps), cpuTime() - start)) return std::nullopt;
         simulation->advance(std::min(next - simulation->steps(), portion / grains + 1));
       }
     }

@@ -41,9 +41,12 @@ struct Outcome {
 /// Asked from time to time: true means to break off.
 using Stop = std::function<bool()>;
 
-/// \brief Runs it. Nothing when `stop` said so.
+/// Told from time to time: the share of the steps that are done, and the CPU seconds so far. True means to break off.
+using Watch = std::function<bool(double done, double cost)>;
+
+/// \brief Runs it. Nothing when `stop` or `watch` said so.
 /// A simulation that fails gives an outcome with a failure. Throws Error(scene) or Error(files) when the scene is wrong.
-std::optional<Outcome> run(const Trial& trial, const Stop& stop = {});
+std::optional<Outcome> run(const Trial& trial, const Stop& stop = {}, const Watch& watch = {});
 
 /// Fingerprint of everything that the outcome depends on: the effective scene but for its pictures, the bytes of the files that it reads,
 /// the version of tsubu. Throws as scene::read.

@@ -309,6 +309,8 @@ height = { kind = "centre_of_mass" }
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("without friction", result.stdout)
         self.assertIn("the scene does not model it", result.stdout)
+        # Two balls that only fall and bounce do not know friction; and explain says so.
+        self.assertRegex(run("explain", self.scene, "--study", self.out).stdout, r"without friction +makes no difference")
 
     def test_tradeoff_refuses_what_it_does_not_know(self):
         self.assertIn("did you mean 'step'?", run("tradeoff", self.scene, "-o", self.out, "--axes", "stop").stderr)

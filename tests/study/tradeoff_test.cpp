@@ -99,6 +99,21 @@ TEST(Tradeoff, GoesOnWhereItWasInterrupted) {
   EXPECT_EQ(whole.known, 3u);
 }
 
+// All at the same step; a heap that falls notices friction.
+TEST(Tradeoff, FeaturesAreComparedWithTheSceneAsItIs) {
+  const Folder folder("tradeoff");
+  Request request = requestFor(folder, heap);
+  request.features = true;
+  const Study study = made(request);
+  ASSERT_GT(study.points.size(), 5u);
+  for (const Point& point : study.points) {
+    if (!point.ran()) continue;
+    EXPECT_EQ(point.outcomes.at(1).timeStep, study.scene().outcomes.at(1).timeStep) << point.label;
+    EXPECT_TRUE(point.label != "as it is" || point.deviations[0].error == 0);
+    EXPECT_TRUE(point.label != "without friction" || !point.none());
+  }
+}
+
 TEST(Tradeoff, AnotherSceneIsAnotherTrial) {
   const Folder folder("tradeoff");
   const Trial trial{folder.file("scene.toml", swinging), {}};
@@ -121,6 +136,19 @@ TEST(Tradeoff, KeepsToItsBudget) {
   EXPECT_LT(took, 1.15 * request.budget + 0.7);
   request.budget = 2 * once;
   EXPECT_THROW(made(request), Error);
+}
+
+// More samples in a pixel cost more and come nearer to the finest picture; the finest is itself.
+TEST(Tradeoff, PicturesAgainstTheFinest) {
+  const Folder folder("tradeoff");
+  const auto pictures = comparePictures({folder.file("scene.toml", heap), {"picture.width=320", "picture.height=192", "simulation.end=0.01"}}, {});
+  ASSERT_TRUE(pictures && pictures->size() == 3);
+  EXPECT_EQ(pictures->front().quality, "fine");
+  EXPECT_EQ(pictures->front().error, 0);
+  EXPECT_GT((*pictures)[1].error, 0);
+  EXPECT_GT((*pictures)[2].error, (*pictures)[1].error);
+  EXPECT_LT((*pictures)[2].error, 0.2);
+  EXPECT_LT((*pictures)[2].cost, (*pictures)[0].cost);
 }
 
 TEST(Tradeoff, WhatTheSceneCannotHaveIsRefusedWithTheReason) {
