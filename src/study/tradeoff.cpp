@@ -241,7 +241,7 @@ class Planner {
                               "its refinement {:.3g} s.", request().budget, pilot.cost, costs(0.5 * study_.safety, 1)),
                   "give more --budget, or a shorter --until");
     if (study_.seeds == 1 && study_.random) study_.notes.push_back("With one seed the noise is not known: a difference may be chance.");
-    if (study_.seeds < request().seeds)
+    if (study_.random && study_.seeds < request().seeds)
       study_.notes.push_back(fmt::format("The budget allows {} of {} seeds.", study_.seeds, request().seeds));
     Setting finest, half;
     finest.safety = share;
