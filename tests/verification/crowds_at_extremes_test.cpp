@@ -1,4 +1,5 @@
-// Many grains at rest, and many that are shaken while they cannot move: deep columns do not creep, jammed packings do not warm up by themselves.
+// Many grains at rest, and many that are shaken while they cannot move: deep columns do not creep, jammed packings do not warm up by
+// themselves.
 
 #include <gtest/gtest.h>
 
@@ -7,8 +8,8 @@
 namespace tsubu::sim::test {
 namespace {
 
-// Eighteen layers deep. Last grains near their limit still give way by thousandths of a radius; no motion is left. The account's rest is that of hard
-// damped collisions at this step, and of second order: 2.3e-2, 1.1e-3 and 5e-5 with steps of 1, 1/4 and 1/16.
+// Eighteen layers deep. Last grains near their limit still give way by thousandths of a radius; no motion is left. The account's rest is
+// that of hard damped collisions at this step, and of second order: 2.3e-2, 1.1e-3 and 5e-5 with steps of 1, 1/4 and 1/16.
 TEST(Column, OfThreeHundredGrainsDoesNotCreep) {
   const Creep creep = creepOfColumn(300, 4, Integrator::velocityVerlet, 0.6, 0.1);
   EXPECT_LT(creep.moved, 5e-3);

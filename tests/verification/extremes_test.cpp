@@ -113,7 +113,8 @@ TEST(Extremes, DampingFarBeyondCritical) {
   }
 }
 
-// On an incline of angle α a sphere that sticks rolls down with (5/7) g sin α, whatever μ is above (2/7) tan α; without friction it slides with g sin α.
+// On an incline of angle α a sphere that sticks rolls down with (5/7) g sin α, whatever μ is above (2/7) tan α; without friction it slides
+// with g sin α.
 TEST(Extremes, FrictionFromNothingToAMillion) {
   const double alpha = 0.7, g = 9.81, mass = 2e-4, r = 2e-3, k = 2e4, span = 0.05;
   for (const char* law : {"spring", "projected", "frozen_spring"}) {
@@ -200,8 +201,8 @@ TEST(Extremes, CrossingInOneStepIsNoticed) {
   }
 }
 
-// What rests on a face also rests on the seam of its triangles, in a corner between three walls, and, as long as nothing disturbs it, exactly on
-// an edge and on a corner that points up.
+// What rests on a face also rests on the seam of its triangles, in a corner between three walls, and, as long as nothing disturbs it,
+// exactly on an edge and on a corner that points up.
 TEST(Extremes, RestingOnSeamEdgeAndCorner) {
   const double mass = 1e-5, r = 1e-3, k = 1e4, g = 9.81, h = 0.01, sink = mass * g / k;
   const double far = r - sink;
@@ -220,11 +221,11 @@ TEST(Extremes, RestingOnSeamEdgeAndCorner) {
     EXPECT_TRUE(finite(sim));
     return (look(sim).position[0] - start).norm();
   };
-  EXPECT_LT(rests(Surface(cube(h)), {0, 0, h + far}, {0, 0, -1}), 1e-12);                     // on the diagonal of a face
+  EXPECT_LT(rests(Surface(cube(h)), {0, 0, h + far}, {0, 0, -1}), 1e-12);  // on the diagonal of a face
   EXPECT_LT(rests(Surface(cube(h)), Vec3(0, h, h) + far * Vec3(0, 1, 1).normalized(), Vec3(0, -1, -1).normalized()), 1e-9);
   EXPECT_LT(rests(Surface(cube(h)), Vec3(h, h, h) + far * Vec3(1, 1, 1).normalized(), Vec3(-1, -1, -1).normalized()), 1e-9);
-  EXPECT_LT(rests(Surface(cube(h)), {-h, -h, h + far}, {0, 0, -1}), 1e-9);                     // above a corner, beside nothing
-  const double deep = r - sink / std::sqrt(3.0);                                               // inside: three faces carry it
+  EXPECT_LT(rests(Surface(cube(h)), {-h, -h, h + far}, {0, 0, -1}), 1e-9);  // above a corner, beside nothing
+  const double deep = r - sink / std::sqrt(3.0);                            // inside: three faces carry it
   EXPECT_LT(rests(Surface(cube(h)), Vec3::Constant(-h + deep), Vec3(-1, -1, -1).normalized()), 1e-9);
 }
 
@@ -350,7 +351,9 @@ TEST(Extremes, StepsAroundTheLimit) {
       sim.advance(20000);
       EXPECT_LT(std::abs(look(sim).position[0].z()), 1e-7);
       const std::string why = refusal([&] { s.start(1.05 * limit).advance(20000); });
-      EXPECT_TRUE(why.find("Overlap") != std::string::npos || why.find("in one step") != std::string::npos || why.find("Not a number") != std::string::npos) << why;
+      EXPECT_TRUE(why.find("Overlap") != std::string::npos || why.find("in one step") != std::string::npos ||
+                  why.find("Not a number") != std::string::npos)
+          << why;
     }
   }
 }
@@ -396,8 +399,8 @@ PropertyValues atTheLimits(const LawFunctions& law, double e, double friction, d
   return values;
 }
 
-// Every law with restitution, friction and resistance at the ends of what they may be: an oblique collision of spinning unequal grains, one of them
-// also with a wall. No energy comes from anywhere, but for the one law that is there to show that it makes some.
+// Every law with restitution, friction and resistance at the ends of what they may be: an oblique collision of spinning unequal grains, one
+// of them also with a wall. No energy comes from anywhere, but for the one law that is there to show that it makes some.
 TEST(Extremes, EveryLawAtEveryLimit) {
   int seen = 0;
   for (std::size_t index = 0; index < lawCount(); ++index) {
@@ -406,10 +409,11 @@ TEST(Extremes, EveryLawAtEveryLimit) {
     for (const double e : {1e-6, 1.0}) {
       for (const double friction : {0.0, 1e6}) {
         for (const double resistance : {0.0, 1e6}) {
-          SCOPED_TRACE(fmt::format("{} {} {} {}, e {}, friction {}, resistance {}", law.names[0], law.names[1], law.names[2], law.names[3], e,
-                                   friction, resistance));
+          SCOPED_TRACE(fmt::format("{} {} {} {}, e {}, friction {}, resistance {}", law.names[0], law.names[1], law.names[2], law.names[3],
+                                   e, friction, resistance));
           Scenario s;
-          s.model.contact = {std::string(law.names[0]), std::string(law.names[1]), std::string(law.names[2]), false, std::string(law.names[3])};
+          s.model.contact = {std::string(law.names[0]), std::string(law.names[1]), std::string(law.names[2]), false,
+                             std::string(law.names[3])};
           s.model.domain = Box(Vec3::Constant(-1), Vec3::Constant(1));
           s.pair = atTheLimits(law, e, friction, resistance);
           s.grain(1e-5, 1e-3, {0, 0, 1.01e-3}, {0.1, 0.05, -0.1}, {200, -300, 100});
