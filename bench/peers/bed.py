@@ -1,7 +1,8 @@
 """The bed as every code wants it: reads a LAMMPS data file or tsubu's CSV of grains, and writes the inputs of all codes.
 
 All codes start from the same positions and velocities, with empty contact memory, and compute the same thing: a linear
-spring-dashpot with Coulomb friction and tangential memory, in five plane walls, under gravity tilted by thirty degrees.
+spring-dashpot, or Hertz and Mindlin, with Coulomb friction and tangential memory, in five plane walls, under gravity tilted by thirty
+degrees. The box is square; a bed may be laid out in tiles, box beside box without the walls between.
 """
 import csv
 import gzip
@@ -13,6 +14,7 @@ NORMAL_STIFFNESS = 1000.0  # N/m
 TANGENTIAL_STIFFNESS = 285.7  # N/m
 NORMAL_DAMPING_RATE = 3118.0  # 1/s: the damping constant over the effective mass (the grain's mass at a wall)
 TANGENTIAL_DAMPING_RATE = 1559.0  # 1/s
+YOUNG, POISSON, RESTITUTION = 1e7, 0.3, 0.5  # of Hertz and Mindlin, Pa
 FRICTION = 0.5
 DENSITY = 2500.0  # kg/m3
 GRAVITY = 9.81  # m/s2
@@ -27,6 +29,23 @@ class Grain:
     position: tuple
     velocity: tuple
     spin: tuple
+
+
+@dataclass
+class Work:
+    """What is done with the bed."""
+    steps: int
+    law: str = "linear"  # or "hertz"
+    tiles: int = 1  # along x and along y
+
+    @property
+    def side(self):
+        return SIDE * self.tiles
+
+
+def lay_out(grains, tiles):
+    return [Grain(g.radius, (g.position[0] + SIDE * i, g.position[1] + SIDE * j, g.position[2]), g.velocity, g.spin)
+            for i in range(tiles) for j in range(tiles) for g in grains]
 
 
 def read(path):
@@ -66,13 +85,13 @@ def read_lammps(file):
     return grains
 
 
-def write_data(path, grains, title, sphere_style):
+def write_data(path, grains, title, sphere_style, side=SIDE):
     """A data file of LAMMPS (`sphere_style`) or LIGGGHTS: they differ in what follows the word 'Atoms'."""
     margin = 0.0005
     top = max(g.position[2] for g in grains) + 0.1
     with open(path, "w", encoding="utf-8") as file:
         file.write(f"{title}\n\n{len(grains)} atoms\n1 atom types\n\n")
-        file.write(f"{-margin} {SIDE + margin} xlo xhi\n{-margin} {SIDE + margin} ylo yhi\n-0.001 {top:.3f} zlo zhi\n\n")
+        file.write(f"{-margin} {side + margin} xlo xhi\n{-margin} {side + margin} ylo yhi\n-0.001 {top:.3f} zlo zhi\n\n")
         file.write("Atoms # sphere\n\n" if sphere_style else "Atoms\n\n")
         for number, g in enumerate(grains, 1):
             file.write(f"{number} 1 {2 * g.radius!r} {DENSITY} " + " ".join(map(repr, g.position)) + "\n")
@@ -88,8 +107,8 @@ def write_csv(path, grains):
             file.write(",".join(map(repr, g.position + (g.radius,) + g.velocity + g.spin)) + "\n")
 
 
-def write_lammps(directory, grains, steps):
-    write_data(directory / "bed.lammps.data", grains, "bed for LAMMPS", True)
+def write_lammps(directory, grains, work):
+    write_data(directory / "bed.lammps.data", grains, "bed for LAMMPS", True, work.side)
     law = f"{NORMAL_STIFFNESS} {TANGENTIAL_STIFFNESS} {NORMAL_DAMPING_RATE} {TANGENTIAL_DAMPING_RATE} {FRICTION} 1"
     (directory / "in.lammps").write_text(f"""\
 units si
@@ -106,24 +125,37 @@ pair_coeff * *
 fix gravity all gravity {GRAVITY} vector {" ".join(map(str, GRAVITY_DIRECTION))}
 fix motion all nve/sphere
 fix floor all wall/gran hooke/history {law} zplane 0.0 NULL
-fix sides_x all wall/gran hooke/history {law} xplane 0.0 {SIDE}
-fix sides_y all wall/gran hooke/history {law} yplane 0.0 {SIDE}
+fix sides_x all wall/gran hooke/history {law} xplane 0.0 {work.side}
+fix sides_y all wall/gran hooke/history {law} yplane 0.0 {work.side}
 timestep {TIME_STEP}
 thermo_style custom step atoms ke
 thermo_modify format float %.10g
 thermo {OUTPUT_EVERY}
-run {steps}
+run {work.steps}
 """)
 
 
-def write_liggghts(directory, grains, steps):
-    write_data(directory / "bed.liggghts.data", grains, "bed for LIGGGHTS", False)
-    walls = "".join(f"fix wall_{name} all wall/gran model hooke/stiffness tangential history primitive type 1 {plane}\n"
-                    for name, plane in [("z", "zplane 0.0"), ("x1", "xplane 0.0"), ("x2", f"xplane {SIDE}"),
-                                        ("y1", "yplane 0.0"), ("y2", f"yplane {SIDE}")])
-    properties = "".join(f"fix {name} all property/global {name} peratomtypepair 1 {value}\n"
-                         for name, value in [("kn", NORMAL_STIFFNESS), ("kt", TANGENTIAL_STIFFNESS), ("gamman", NORMAL_DAMPING_RATE),
-                                             ("gammat", TANGENTIAL_DAMPING_RATE), ("coefficientFriction", FRICTION)])
+LIGGGHTS = {
+    "linear": ("hooke/stiffness tangential history",
+               {"kn": NORMAL_STIFFNESS, "kt": TANGENTIAL_STIFFNESS, "gamman": NORMAL_DAMPING_RATE, "gammat": TANGENTIAL_DAMPING_RATE,
+                "coefficientFriction": FRICTION}),
+    "hertz": ("hertz tangential history",
+              {"youngsModulus": YOUNG, "poissonsRatio": POISSON, "coefficientRestitution": RESTITUTION, "coefficientFriction": FRICTION}),
+}
+
+
+def liggghts_property(name, value):
+    kind = "peratomtype" if name in ("youngsModulus", "poissonsRatio") else "peratomtypepair 1"
+    return f"fix {name} all property/global {name} {kind} {value}\n"
+
+
+def write_liggghts(directory, grains, work):
+    write_data(directory / "bed.liggghts.data", grains, "bed for LIGGGHTS", False, work.side)
+    model, values = LIGGGHTS[work.law]
+    walls = "".join(f"fix wall_{name} all wall/gran model {model} primitive type 1 {plane}\n"
+                    for name, plane in [("z", "zplane 0.0"), ("x1", "xplane 0.0"), ("x2", f"xplane {work.side}"),
+                                        ("y1", "yplane 0.0"), ("y2", f"yplane {work.side}")])
+    properties = "".join(liggghts_property(name, value) for name, value in values.items())
     (directory / "in.liggghts").write_text(f"""\
 atom_style granular
 atom_modify map array
@@ -135,7 +167,7 @@ processors * * 1
 neighbor 0.0002 bin
 neigh_modify delay 0
 read_data bed.liggghts.data
-{properties}pair_style gran model hooke/stiffness tangential history
+{properties}pair_style gran model {model}
 pair_coeff * *
 timestep {TIME_STEP}
 fix gravity all gravity {GRAVITY} vector {" ".join(map(str, GRAVITY_DIRECTION))}
@@ -143,29 +175,12 @@ fix gravity all gravity {GRAVITY} vector {" ".join(map(str, GRAVITY_DIRECTION))}
 thermo_style custom step atoms ke
 thermo_modify format float %.10g
 thermo {OUTPUT_EVERY}
-run {steps}
+run {work.steps}
 """)
 
 
-def write_tsubu(directory, grains, steps):
-    write_csv(directory / "bed.grains.csv", grains)
-    length = sum(component**2 for component in GRAVITY_DIRECTION) ** 0.5
-    gravity = [GRAVITY * component / length for component in GRAVITY_DIRECTION]
-    walls = "".join(f"[walls.{name}]\nplane = {{ point = {point}, normal = {normal} }}\n"
-                    for name, point, normal in [("floor", [0, 0, 0], [0, 0, 1]),
-                                                ("left", [0, 0, 0], [1, 0, 0]), ("right", [SIDE, 0, 0], [-1, 0, 0]),
-                                                ("front", [0, 0, 0], [0, 1, 0]), ("back", [0, SIDE, 0], [0, -1, 0])])
-    (directory / "bed.toml").write_text(f"""\
-title = "A settled bed in a box that tilts by thirty degrees"
-
-[simulation]
-end = {steps * TIME_STEP!r}
-gravity = {gravity}
-integrator = "symplectic_euler"
-time_step = {TIME_STEP}
-ledger = false
-
-[contact]
+TSUBU = {
+    "linear": f"""[contact]
 tension = true
 
 [materials.glass]
@@ -177,7 +192,44 @@ tangential_stiffness = {TANGENTIAL_STIFFNESS}
 normal_damping_rate = {NORMAL_DAMPING_RATE}
 tangential_damping_rate = {TANGENTIAL_DAMPING_RATE}
 friction = {FRICTION}
+""",
+    "hertz": f"""[contact]
+normal = "hertz"
+tangential = "mindlin"
+tension = true
 
+[materials.glass]
+density = {DENSITY}
+young_modulus = {YOUNG}
+poisson_ratio = {POISSON}
+
+[pairs]
+restitution = {RESTITUTION}
+friction = {FRICTION}
+tangential_damping_factor = 1.0
+""",
+}
+
+
+def write_tsubu(directory, grains, work):
+    write_csv(directory / "bed.grains.csv", grains)
+    length = sum(component**2 for component in GRAVITY_DIRECTION) ** 0.5
+    gravity = [GRAVITY * component / length for component in GRAVITY_DIRECTION]
+    walls = "".join(f"[walls.{name}]\nplane = {{ point = {point}, normal = {normal} }}\n"
+                    for name, point, normal in [("floor", [0, 0, 0], [0, 0, 1]),
+                                                ("left", [0, 0, 0], [1, 0, 0]), ("right", [work.side, 0, 0], [-1, 0, 0]),
+                                                ("front", [0, 0, 0], [0, 1, 0]), ("back", [0, work.side, 0], [0, -1, 0])])
+    (directory / "bed.toml").write_text(f"""\
+title = "A settled bed in a box that tilts by thirty degrees"
+
+[simulation]
+end = {work.steps * TIME_STEP!r}
+gravity = {gravity}
+integrator = "symplectic_euler"
+time_step = {TIME_STEP}
+ledger = false
+
+{TSUBU[work.law]}
 [grains.bed]
 source = "file"
 file = "bed.grains.csv"

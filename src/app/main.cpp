@@ -76,6 +76,7 @@ Commands describe(CLI::App& app, RunOptions& options, TradeoffOptions& study) {
       ->check(CLI::Range(1, 1024));
   commands.run->add_option("--until", options.until, "End at this time instead of the scene's, in seconds")->check(CLI::NonNegativeNumber);
   commands.run->add_flag("!--no-frames", options.frames, "Simulate only");
+  commands.run->add_flag("--profile", options.profile, "Say at the end where the time of the simulation went");
   commands.run->add_option("--isa", options.isa, "Force an instruction set: portable, avx2 or avx512; the results do not depend on it");
   return commands;
 }

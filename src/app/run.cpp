@@ -45,6 +45,7 @@ class Run {
   void writeFrame();
   void report(const std::string& ended, const std::string& failure);
   void summarise() const;
+  void noteProfile();
 
   const RunOptions& options_;
   ProgressLine progress_{stderr};
@@ -101,6 +102,7 @@ Run::Run(const RunOptions& options) : options_(options) {
   if (scene.diagnostics) diagnostics_ = std::make_unique<DiagnosticsFiles>(folder_, *scene.diagnostics, std::move(walls));
   if (!scene.observe.empty()) observer_ = std::make_unique<study::Observer>(scene, scene.observe);
   simulation_ = std::make_unique<sim::Simulation>(std::move(built.model), report_.threads);
+  if (options.profile) simulation_->startProfile();
 }
 
 void Run::openFilm(scene::Built& built, const scene::Scene& scene) {
@@ -192,9 +194,21 @@ void Run::report(const std::string& ended, const std::string& failure) {
     r.stateHash = fmt::format("{:016x}", sim.stateHash());
   }
   if (observer_) r.observables = observer_->results();
+  if (options_.profile) noteProfile();
   r.frames = film_ ? film_->frames() : 0;
   r.renderer = film_ ? film_->renderer() : "";
   writeReport(folder_ / "run.json", r);
+}
+
+// What the parts of a step leave over: threads that wait for each other, and what is done once for all (ledger rows, snapshots).
+void Run::noteProfile() {
+  const sim::Profile::Seconds seconds = simulation_->profile();
+  double left = report_.simulationTime * report_.threads;
+  for (std::size_t part = 0; part < seconds.size(); ++part) {
+    left -= seconds[part];
+    report_.profile.emplace_back(sim::nameOf(static_cast<sim::ProfilePart>(part)), seconds[part]);
+  }
+  report_.profile.emplace_back("waiting, and the rest", std::max(0.0, left));
 }
 
 void Run::summarise() const {
@@ -204,6 +218,14 @@ void Run::summarise() const {
   if (r.ledger) text += fmt::format("; energy unaccounted for: {:.2g} %", 100 * r.energyResidual);
   if (r.counts.lost > 0) text += fmt::format("; {} grains lost", r.counts.lost);
   if (!r.setting.empty()) text += fmt::format("\nsetting of the study: {}", r.setting);
+  if (!r.profile.empty()) {
+    double all = 0;
+    for (const auto& [part, seconds] : r.profile) all += seconds;
+    fmt::print("{:<26}{:>8}{:>8}{:>22}\n", "time of all threads", "s", "%", "ns per grain-step");
+    for (const auto& [part, seconds] : r.profile)
+      fmt::print("  {:<24}{:>8.2f}{:>8.1f}{:>22.2f}\n", part, seconds, 100 * seconds / std::max(all, 1e-9),
+                 1e9 * seconds / std::max<double>(1, static_cast<double>(r.grainSteps)));
+  }
   fmt::print("{}\n{}: {} frames, ledger.csv, {}run.json\n", text, folder_.string(), r.frames, diagnostics_ ? diagnostics_->names() + ", " : "");
 }
 

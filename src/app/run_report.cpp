@@ -53,6 +53,7 @@ void writeReport(const std::filesystem::path& path, const RunReport& r) {
     if (!measured.unit.empty()) json["observables"][measured.name]["unit"] = measured.unit;
   }
   json["state_hash"] = r.stateHash;
+  for (const auto& [part, seconds] : r.profile) json["profile"][part] = seconds;
   json["frames"] = r.frames;
   json["frame_interval"] = r.plan.interval;
   json["frame_rate"] = r.frameRate;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene/build.h"
@@ -38,6 +39,7 @@ struct RunReport {
   double worstEnergyResidual = 0;  ///< of any row of the ledger
   std::vector<study::Measured> observables;  ///< what the scene names
   std::string stateHash;
+  std::vector<std::pair<std::string, double>> profile;  ///< s of all threads together, by part; empty unless asked for
   std::size_t frames = 0;
   std::string renderer;
   std::vector<std::string> warnings;

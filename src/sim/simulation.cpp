@@ -138,15 +138,21 @@ void Simulation::Impl::computeForces(For whom) {
   changeGravity();
   const double wallStep = walls.moveTo(time(), model.timeStep);
   placeMovingWalls();
-  changePopulation();
-  refreshLists();
-  bookArrivals();
+  {
+    Profile::Lap lap(profile, ProfilePart::population);
+    changePopulation();
+    lap.next(ProfilePart::lists);
+    refreshLists();
+    lap.next(ProfilePart::population);
+    bookArrivals();
+  }
   if (gravity.changes() && model.ledger) gravity.settle(momentOfMass());
 
   accountsKnown = model.ledger || steps % watchEvery == 0;
   if (rungeKutta) rungeKutta->keepMemory(pairs, walls);
   evaluateContacts(whom);
   book(1);
+  Profile::Lap lap(profile, ProfilePart::other);
   for (const auto& pass : passes) {
     pass->addForces(world(time(), (rungeKutta ? RungeKutta::weight[0] : 1.0) * model.timeStep));
     pass->count(counts);
@@ -180,6 +186,7 @@ void Simulation::Impl::evaluateContacts(For whom) {
     const auto s = static_cast<std::size_t>(slab);
     SlabPairs& list = pairs.slabs()[s];
     Stage& stage = stages[static_cast<std::size_t>(thread)];
+    Profile::Lap lap(profile, ProfilePart::pairs, thread);
     PairLists::refreshImages(state, list);
     const PairRange range{list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.data(), list.stride,
                           list.touch.empty() ? nullptr : list.touch.data()};
@@ -187,6 +194,7 @@ void Simulation::Impl::evaluateContacts(For whom) {
       passNoting(onPairs.kernel, grainsWorld, range, traits.rolls, stage, last[s], acting[s]);
     else
       onPairs.kernel(grainsWorld, range, stage, last[s]);
+    lap.next(ProfilePart::walls);
     walls.evaluateSlab(slab, wallsWorld, onWalls.kernel, accountsKnown, stage, last[s], noting ? &acting[s] : nullptr);
   };
   moved = whom == For::step && contactsActAlone();
@@ -195,8 +203,8 @@ void Simulation::Impl::evaluateContacts(For whom) {
   team.run((count + 1) / 2, [&](int task, int thread) {
     if (2 * task + 1 < count) evaluate(2 * task + 1, thread);
     if (!moved) return;
-    if (task == 0) moveSlab(0);
-    for (int slab = 2 * task + 1; slab < std::min(2 * task + 3, count); ++slab) moveSlab(slab);
+    if (task == 0) moveSlab(0, thread);
+    for (int slab = 2 * task + 1; slab < std::min(2 * task + 3, count); ++slab) moveSlab(slab, thread);
   });
   if (pairs.hasImages()) team.run(count, [&](int slab, int) { pairs.foldImages(state, slab); });
 }
@@ -236,13 +244,14 @@ void Simulation::Impl::loadMovingWalls() {
   }
 }
 
-void Simulation::Impl::moveSlab(int slab) {
+void Simulation::Impl::moveSlab(int slab, int thread) {
+  const Profile::Lap lap(profile, ProfilePart::motion, thread);
   const bool turn = (steps + 1) % turnInterval == 0;
   motions[static_cast<std::size_t>(slab)] = integrate(state, slabs.begin(slab), slabs.end(slab), gravity.now(), model.timeStep, turn);
 }
 
 Motion Simulation::Impl::moveBySlabs() {
-  if (!moved) team.run(slabs.count(), [&](int slab, int) { moveSlab(slab); });
+  if (!moved) team.run(slabs.count(), [&](int slab, int thread) { moveSlab(slab, thread); });
   moved = false;
   Motion most;
   for (const Motion& motion : motions) {
@@ -442,6 +451,8 @@ std::uint64_t Simulation::grainSteps() const { return impl_->grainSteps; }
 Ledger Simulation::ledger() { return impl_->ledgerNow(); }
 ContactSummary Simulation::contacts() { return impl_->contactsNow(); }
 std::vector<WallState> Simulation::movingWalls() { return impl_->movingWallsNow(); }
+void Simulation::startProfile() { impl_->profile.start(impl_->team.threads()); }
+Profile::Seconds Simulation::profile() const { return impl_->profile.seconds(); }
 void Simulation::fill(Snapshot& snapshot) { impl_->fill(snapshot); }
 Instant Simulation::instant() { return impl_->instantNow(); }
 std::uint64_t Simulation::stateHash() { return impl_->stateHash(); }

@@ -10,6 +10,7 @@
 #include "sim/diagnostics/instant.h"
 #include "sim/ledger.h"
 #include "sim/model.h"
+#include "sim/profile.h"
 
 namespace tsubu::sim {
 
@@ -82,6 +83,11 @@ class Simulation {
   Instant instant();
   /// Hash over the grains in the order of their ids (position, velocity, orientation) and the contact memory; equal for equal bits.
   std::uint64_t stateHash();
+
+  /// From here on, where the time of the steps goes. The results do not depend on it.
+  void startProfile();
+  /// s of all threads together, since `startProfile`; Runge–Kutta's own work is in none of the parts.
+  Profile::Seconds profile() const;
 
   /// Without running: what this model will do.
   static Plan plan(const Model& model);

@@ -15,6 +15,7 @@
 #include "sim/neighbours/slabs.h"
 #include "sim/pair_constants.h"
 #include "sim/pass.h"
+#include "sim/profile.h"
 #include "sim/runge_kutta.h"
 #include "sim/simulation.h"
 #include "sim/state.h"
@@ -66,6 +67,7 @@ class Simulation::Impl {
   std::vector<std::unique_ptr<ForcePass>> passes;  ///< beside contacts
   std::optional<RungeKutta> rungeKutta;        ///< when it is the integrator
   std::vector<Stage> stages;                   ///< one per thread
+  Profile profile;
   std::vector<Accounts> last;                  ///< one per slab: this step's
   std::vector<std::vector<ActingContact>> acting;  ///< one per slab: the contacts of the present instant, noted for an observer
   std::array<double, Accounts::kinds> total{};  ///< dissipated so far
@@ -126,7 +128,7 @@ class Simulation::Impl {
   void evaluateContacts(For whom);
   void move();
   bool contactsActAlone() const;
-  void moveSlab(int slab);
+  void moveSlab(int slab, int thread);
   Motion moveBySlabs();
   Motion moveByStages();
 

@@ -8,7 +8,6 @@
 namespace tsubu::sim {
 namespace {
 
-TSUBU_INLINE D4 fill4(double value) { return D4{value, value, value, value}; }
 /// The first three of `a` with the fourth of `b`.
 TSUBU_INLINE D4 withFourth(const D4& a, const D4& b) { return __builtin_shufflevector(a, b, 0, 1, 2, 7); }
 

@@ -24,6 +24,8 @@ TSUBU_INLINE void store4(double* to, const D4& value) { std::memcpy(to, &value, 
 TSUBU_INLINE void add4(double* to, const D4& value) { store4(to, load4(to) + value); }
 TSUBU_INLINE void subtract4(double* to, const D4& value) { store4(to, load4(to) - value); }
 
+TSUBU_INLINE D4 fill4(double value) { return D4{value, value, value, value}; }
+
 /// Rows become columns.
 TSUBU_INLINE void transpose4(D4& a, D4& b, D4& c, D4& d) {
   const D4 ab02 = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab13 = __builtin_shufflevector(a, b, 1, 5, 3, 7);

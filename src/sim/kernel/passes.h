@@ -266,50 +266,41 @@ void addAccounts(int count, const Stage& s, Accounts& accounts) {
   for (int q = whole; q < count; ++q) deepest[q - whole] = larger(deepest[q - whole], overlap[q]);
 }
 
+/// Adds the columns of up to four contacts to the rows of both grains.
+template <class Law>
+TSUBU_INLINE void scatterFour(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, int q, Stage& s) {
+  D4 f[4] = {load4(s.fx + q), load4(s.fy + q), load4(s.fz + q), D4{}}, c[4], m[4];
+  transpose4(f[0], f[1], f[2], f[3]);
+  if constexpr (Law::turns) {
+    c[0] = load4(s.qx + q), c[1] = load4(s.qy + q), c[2] = load4(s.qz + q), c[3] = D4{};
+    transpose4(c[0], c[1], c[2], c[3]);
+  }
+  if constexpr (Law::rolls) {
+    m[0] = load4(s.mx + q), m[1] = load4(s.my + q), m[2] = load4(s.mz + q), m[3] = D4{};
+    transpose4(m[0], m[1], m[2], m[3]);
+  }
+  for (int k = 0; k < count; ++k) {
+    double* const a = &context.forces[is[k]].fx;
+    double* const b = &context.forces[js[k]].fx;
+    add4(a, f[k]);
+    subtract4(b, f[k]);
+    if constexpr (Law::rolls) {
+      // T = −r Q + M, so a moment is −M/r in Q, which differs for the two.
+      add4(a + 4, c[k] - fill4(context.rows[is[k]].inverseRadius) * m[k]);
+      add4(b + 4, c[k] + fill4(context.rows[js[k]].inverseRadius) * m[k]);
+    } else if constexpr (Law::turns) {
+      add4(a + 4, c[k]);
+      add4(b + 4, c[k]);
+    }
+  }
+}
+
 /// Adds the columns to the rows of both grains, in the order of the contacts.
 template <class Law>
 void scatter(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, Stage& s) {
-  // T = −r Q + M, so a moment is −M/r in Q, which differs for the two.
-  if constexpr (Law::rolls) {
-    for (int q = 0; q < count; ++q) {
-      const double ia = context.rows[is[q]].inverseRadius, ib = context.rows[js[q]].inverseRadius;
-      ForceRow& a = context.forces[is[q]];
-      ForceRow& b = context.forces[js[q]];
-      a.qx -= s.mx[q] * ia, a.qy -= s.my[q] * ia, a.qz -= s.mz[q] * ia;
-      b.qx += s.mx[q] * ib, b.qy += s.my[q] * ib, b.qz += s.mz[q] * ib;
-    }
-  }
-  const D4 none{0, 0, 0, 0};
   int q = 0;
-  for (; q + 4 <= count; q += 4) {
-    D4 f[4] = {load4(s.fx + q), load4(s.fy + q), load4(s.fz + q), none};
-    transpose4(f[0], f[1], f[2], f[3]);
-    D4 c[4];
-    if constexpr (Law::turns) {
-      c[0] = load4(s.qx + q), c[1] = load4(s.qy + q), c[2] = load4(s.qz + q), c[3] = none;
-      transpose4(c[0], c[1], c[2], c[3]);
-    }
-    for (int k = 0; k < 4; ++k) {
-      double* const a = &context.forces[is[q + k]].fx;
-      double* const b = &context.forces[js[q + k]].fx;
-      add4(a, f[k]);
-      subtract4(b, f[k]);
-      if constexpr (Law::turns) {
-        add4(a + 4, c[k]);
-        add4(b + 4, c[k]);
-      }
-    }
-  }
-  for (; q < count; ++q) {
-    ForceRow& a = context.forces[is[q]];
-    ForceRow& b = context.forces[js[q]];
-    a.fx += s.fx[q], a.fy += s.fy[q], a.fz += s.fz[q];
-    b.fx -= s.fx[q], b.fy -= s.fy[q], b.fz -= s.fz[q];
-    if constexpr (Law::turns) {
-      a.qx += s.qx[q], a.qy += s.qy[q], a.qz += s.qz[q];
-      b.qx += s.qx[q], b.qy += s.qy[q], b.qz += s.qz[q];
-    }
-  }
+  for (; q + 4 <= count; q += 4) scatterFour<Law>(context, is + q, js + q, 4, q, s);
+  if (q < count) scatterFour<Law>(context, is + q, js + q, count - q, q, s);
 }
 
 /// Pairs that touch at another distance than the sum of their radii: the sum is changed, and with it what the loop divides by it. The
