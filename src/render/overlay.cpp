@@ -56,8 +56,8 @@ std::string tickText(double value, double step) {
   return (value < 0 ? "\u2212" : "") + fmt::format("{:.{}f}", std::abs(value), decimals);
 }
 
-void drawLegend(Image& image, const Legend& legend, const Pen& pen, const Layout& layout) {
-  const BarPlace bar = legendBar(image.width, image.height);
+void drawLegend(Image& image, const Legend& legend, const Pen& pen, const Layout& layout, LegendPlace place) {
+  const BarPlace bar = legendBar(image.width, image.height, place);
   fill(image, bar.x - 1, bar.y - 1, bar.width + 2, bar.height + 2, pen.ink);
   for (int k = 0; k < bar.width; ++k) fill(image, bar.x + k, bar.y, 1, bar.height, mapped(legend.map, (k + 0.5) / bar.width));
 
@@ -85,13 +85,14 @@ void drawLegend(Image& image, const Legend& legend, const Pen& pen, const Layout
 
 }  // namespace
 
-BarPlace legendBar(int pictureWidth, int pictureHeight) {
+BarPlace legendBar(int pictureWidth, int pictureHeight, LegendPlace place) {
   const Layout layout(pictureHeight);
   const int width = static_cast<int>(std::min(std::max(0.24 * pictureWidth, 40.0), 0.6 * pictureHeight));
   const int height = std::max(4, pictureHeight / 60);
   const int right = static_cast<int>(std::lround(pictureWidth - layout.margin - layout.small));
   const int bottom = static_cast<int>(std::lround(pictureHeight - layout.margin - std::max(2, height / 3) - 1.6 * layout.small));
-  return {right - width, bottom - height, width, height};
+  const int top = static_cast<int>(std::lround(layout.margin + 1.8 * layout.text));  // below the name
+  return {right - width, place == LegendPlace::topRight ? top : bottom - height, width, height};
 }
 
 std::vector<double> roundTicks(double low, double high, int most) {
@@ -124,7 +125,7 @@ void drawOverlay(Image& image, const Style& style, double time, const std::optio
   const Overlay& overlay = style.overlay;
   if (!overlay.title.empty()) write(image, pen, overlay.title, layout.margin, layout.margin + layout.title, layout.title);
   if (overlay.time) write(image, pen, timeStamp(overlay, time), layout.margin, image.height - layout.margin, layout.text);
-  if (overlay.legend && legend) drawLegend(image, *legend, pen, layout);
+  if (overlay.legend && legend) drawLegend(image, *legend, pen, layout, overlay.legendPlace);
 }
 
 }  // namespace tsubu::render

@@ -18,7 +18,7 @@ void drawOverlay(Image& image, const Style& style, double time, const std::optio
 struct BarPlace {
   int x, y, width, height;
 };
-BarPlace legendBar(int pictureWidth, int pictureHeight);
+BarPlace legendBar(int pictureWidth, int pictureHeight, LegendPlace place = LegendPlace::bottomRight);
 
 /// Round numbers (1, 2 or 5 times a power of ten apart) in [low, high], at most `most` of them.
 std::vector<double> roundTicks(double low, double high, int most);

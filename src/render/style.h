@@ -215,11 +215,14 @@ struct WallLook {
 
 // --- overlay ------------------------------------------------------------------------------------------------------------
 
+enum class LegendPlace { bottomRight, topRight };
+
 struct Overlay {
   bool time = true;
   int timeDecimals = 2;              ///< of the time stamp in seconds, 0 to 9
   std::optional<double> slowMotion;  ///< seconds of film per simulated second; printed when it is not 1
   bool legend = true;                ///< drawn when the colour shows a quantity
+  LegendPlace legendPlace = LegendPlace::bottomRight;
   std::string title;                 ///< UTF-8; what the font lacks becomes a box
 
   bool operator==(const Overlay&) const = default;

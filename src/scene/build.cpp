@@ -215,6 +215,7 @@ render::Style buildStyle(const Scene& scene) {
   style.overlay.time = scene.overlay.time;
   style.overlay.timeDecimals = scene.overlay.timeDecimals;
   style.overlay.legend = scene.overlay.legend;
+  style.overlay.legendPlace = scene.overlay.legendPlace == 1 ? render::LegendPlace::topRight : render::LegendPlace::bottomRight;
   if (scene.overlay.title) style.overlay.title = scene.title;
   const double slow = slowMotion(scene.output);
   if (scene.overlay.time && std::abs(slow - 1) > 1e-9) style.overlay.slowMotion = slow;

@@ -129,6 +129,8 @@ void describeOverlay(Form& form, Overlay& overlay) {
   form.integer({"time_decimals", "Decimals of the time in seconds."}, decimals, 0, 9);
   overlay.timeDecimals = static_cast<int>(decimals);
   form.boolean({"legend", "Draw the colour map with its numbers, when colour shows a quantity."}, overlay.legend);
+  static constexpr Choice places[] = {{"bottom_right", "Beside the time."}, {"top_right", "For scenes that end in the lower corner."}};
+  form.word({"legend_place", "Where the legend lies."}, overlay.legendPlace, places);
 }
 
 }  // namespace

@@ -297,6 +297,7 @@ struct Show {
 struct Overlay {
   bool time = true, legend = true, title = true;
   int timeDecimals = 2;
+  std::size_t legendPlace = 0;  ///< 0: bottom right, 1: top right
 
   bool operator==(const Overlay&) const = default;
 };

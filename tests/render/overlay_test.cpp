@@ -46,8 +46,9 @@ TEST(Legend, ShowsTheColoursOfTheMap) {
     Style style = speedStyle(640, 360);
     style.grains.map = map;
     style.grains.range = Range{0, 1};
+    if (map == ColourMap::vik) style.overlay.legendPlace = LegendPlace::topRight;
     const Image image = Renderer(style, {}).draw({});
-    const BarPlace bar = legendBar(640, 360);
+    const BarPlace bar = legendBar(640, 360, style.overlay.legendPlace);
     for (int k = 0; k < bar.width; ++k) {
       const Colour expected = mapped(map, (k + 0.5) / bar.width);
       for (const int y : {bar.y, bar.y + bar.height - 1}) {
@@ -60,11 +61,14 @@ TEST(Legend, ShowsTheColoursOfTheMap) {
 
 TEST(Legend, LiesWithinThePicture) {
   for (const auto& [width, height] : {std::pair(1280, 720), {320, 180}, {200, 400}, {64, 48}, {1080, 1920}}) {
-    const BarPlace bar = legendBar(width, height);
-    EXPECT_GT(bar.x, 0);
-    EXPECT_GT(bar.y, 0);
-    EXPECT_LT(bar.x + bar.width, width);
-    EXPECT_LT(bar.y + bar.height, height);
+    const BarPlace bar = legendBar(width, height), top = legendBar(width, height, LegendPlace::topRight);
+    for (const BarPlace& each : {bar, top}) {
+      EXPECT_GT(each.x, 0);
+      EXPECT_GT(each.y, 0);
+      EXPECT_LT(each.x + each.width, width);
+      EXPECT_LT(each.y + each.height, height);
+    }
+    if (height >= 180) EXPECT_LT(top.y + top.height, height / 4);
   }
 }
 
