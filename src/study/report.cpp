@@ -186,6 +186,12 @@ std::string plotScriptOf(const Study& study) {
   const auto at = [](const std::string& axis, const std::string& observable, const std::string& x, const std::string& y) {
     return fmt::format("(strcol(1) eq '{}' && strcol(6) eq '{}' ? {} : 1/0):({})", axis, observable, x, y);
   };
+  // Along an axis the scene has a place as well; along that of steps its reference and refinement, too.
+  const auto along = [](const std::string& axis, const std::string& observable, const std::string& y) {
+    const std::string others = axis == "step" ? "strstrt('scene reference refinement', strcol(1)) > 0 ? $2 : 1/0"
+                               : axis == "skin" ? "1/0" : "strcol(1) eq 'scene' ? 1 : 1/0";
+    return fmt::format("(strcol(6) ne '{}' ? 1/0 : strcol(1) eq '{}' ? $2 : {}):({})", observable, axis, others, y);
+  };
   const std::string error = "100*($9 > 1e-5 ? $9 : 1e-5)", low = "100*($9-$10 > 1e-5 ? $9-$10 : 1e-5)", high = "100*($9+$10)";
   for (const ObservableInfo& o : study.observables) {
     if (!o.known) continue;
@@ -209,7 +215,7 @@ std::string plotScriptOf(const Study& study) {
     for (const ObservableInfo& o : study.observables)
       if (o.known)
         parts += fmt::format("{}'tradeoff.csv' using {}:({}):({}) every ::1 with yerrorbars pt 7 title '{}' noenhanced", parts.empty() ? "" : ", \\\n  ",
-                             at(axis, o.name, "$2", error), low, high, o.name);
+                             along(axis, o.name, error), low, high, o.name);
     text += parts + "\nunset logscale\n";
   }
   return text;

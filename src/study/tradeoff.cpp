@@ -219,14 +219,16 @@ class Planner {
   void lookAtPilot() {
     const Outcome& pilot = study_.scene().outcomes.begin()->second;
     if (!pilot.complete()) throw Error(ErrorKind::simulation, "The scene as it is does not run to its end: " + pilot.failure);
-    study_.safety = pilot.timeStep / pilot.limit;
+    study_.points[0].at = study_.safety = pilot.timeStep / pilot.limit;
   }
 
   // As fine as a share of the budget allows, but at least half the scene's own step.
   void chooseReference() {
     const Outcome& pilot = study_.scene().outcomes.begin()->second;
     const double perShare = pilot.cost * study_.safety;  // CPU seconds of a trial, times the share of the limit
-    const double budget = shareOfReference * request().budget * request().threads;
+    // On a busy machine a second of CPU takes longer than a second.
+    const double busy = std::clamp(pilot.wall / pilot.cost, 1.0, 4.0);
+    const double budget = shareOfReference * request().budget * request().threads / busy;
     const auto costs = [&](double share, int seeds) { return 1.5 * seeds * perShare / share; };
     double share = 0;
     while (share == 0) {

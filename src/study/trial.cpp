@@ -1,6 +1,7 @@
 #include "study/trial.h"
 
 #include <algorithm>
+#include <chrono>
 #include <ctime>
 #include <memory>
 
@@ -55,6 +56,7 @@ std::optional<Outcome> run(const Trial& trial, const Stop& stop, const Watch& wa
   // A run that fails may do so in the middle of a step: what is told of it is where and why, and what it has cost.
   std::unique_ptr<sim::Simulation> simulation;
   const double start = cpuTime();
+  const auto began = std::chrono::steady_clock::now();
   try {
     simulation = std::make_unique<sim::Simulation>(std::move(built.model), 1);
     Observer observer(scene, observablesOf(scene));
@@ -77,6 +79,7 @@ std::optional<Outcome> run(const Trial& trial, const Stop& stop, const Watch& wa
     outcome.failure = error.what();
   }
   outcome.cost = cpuTime() - start;
+  outcome.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   if (simulation) {
     outcome.steps = simulation->steps();
     outcome.grainSteps = simulation->grainSteps();

@@ -29,6 +29,7 @@ std::string commandOf(const Trial& trial);
 struct Outcome {
   std::vector<Measured> values;    ///< in the order of the scene; empty when it failed
   double cost = 0;                 ///< CPU seconds of the simulation
+  double wall = 0;                 ///< s: how long it took, whoever else used the machine
   double timeStep = 0, limit = 0;  ///< s: taken, and where the scene would be unstable
   std::uint64_t steps = 0, grainSteps = 0;
   std::uint64_t grains = 0;        ///< in the end

@@ -82,6 +82,7 @@ std::optional<Outcome> TrialStore::find(const Trial& trial) const {
     for (const auto& value : json.at("values"))
       outcome.values.push_back({value.at("name"), value.at("unit"), numberIn(value.at("value")), numberIn(value.at("scale"))});
     outcome.cost = json.at("cpu_seconds");
+    outcome.wall = json.value("wall_seconds", outcome.cost);
     outcome.timeStep = json.at("dt");
     outcome.limit = json.at("dt_limit");
     outcome.steps = json.at("steps");
@@ -103,6 +104,7 @@ void TrialStore::keep(const Trial& trial, const Outcome& outcome) const {
   for (const Measured& value : outcome.values)
     json["values"].push_back({{"name", value.name}, {"unit", value.unit}, {"value", jsonOf(value.value)}, {"scale", jsonOf(value.scale)}});
   json["cpu_seconds"] = outcome.cost;
+  json["wall_seconds"] = outcome.wall;
   json["dt"] = outcome.timeStep;
   json["dt_limit"] = outcome.limit;
   json["steps"] = outcome.steps;

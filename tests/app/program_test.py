@@ -312,6 +312,22 @@ height = { kind = "centre_of_mass" }
         # Two balls that only fall and bounce do not know friction; and explain says so.
         self.assertRegex(run("explain", self.scene, "--study", self.out).stdout, r"without friction +makes no difference")
 
+    def test_tradeoff_goes_on_after_ctrl_c(self):
+        self.scene.write_text(self.STUDIED)
+        command = ["tradeoff", str(self.scene), "-o", str(self.out), "--axes", "step", "--until", "2", "--budget", "60s", "--threads", "1"]
+        program = subprocess.Popen([PROGRAM, *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        program.stderr.readline()
+        program.send_signal(signal.SIGINT)
+        program.communicate(timeout=60)
+        self.assertEqual(program.returncode, 130)
+        study = json.loads((self.out / "tradeoff.json").read_text())
+        self.assertFalse(study["complete"])
+        kept = len(list((self.out / "trials").glob("*.json")))
+        self.assertGreater(kept, 0)
+        result = run(*command)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(f" {kept} known", result.stdout)
+
     def test_tradeoff_refuses_what_it_does_not_know(self):
         self.assertIn("did you mean 'step'?", run("tradeoff", self.scene, "-o", self.out, "--axes", "stop").stderr)
         self.assertEqual(run("tradeoff", self.scene, "-o", self.out, "--budget", "soon").returncode, 2)
