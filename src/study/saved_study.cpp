@@ -25,7 +25,7 @@ SavedPoint pointIn(const nlohmann::json& json) {
   point.pareto = json.at("pareto");
   for (const auto& [name, error] : json.at("errors").items()) {
     const double measured = error.at("error").is_null() ? std::numeric_limits<double>::infinity() : numberIn(error.at("error"));
-    const double bound = std::max(measured, numberIn(error.at("floor")));
+    const double bound = std::max(measured + numberIn(error.at("noise")), numberIn(error.at("floor")));
     if (!point.worst.empty() && bound <= point.bound) continue;
     point.bound = bound, point.worst = name, point.noise = error.at("none");
   }

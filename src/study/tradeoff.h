@@ -2,6 +2,7 @@
 // Speed against accuracy, measured: a scene is run over a plan of settings with several seeds, and the error of its observables is put against
 // the cost.
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -35,8 +36,8 @@ struct Deviation {
   double floor = 0;  ///< noise, or the reference's own error where that is larger: a smaller difference is none
 
   bool none() const { return error <= floor; }
-  /// What the error is not above: what a promise can be made of.
-  double bound() const { return std::max(error, floor); }
+  /// What the error is not above, for all that is known: what a promise can be made of.
+  double bound() const { return std::max(error + noise, floor); }
 };
 
 /// A setting with its trials.
