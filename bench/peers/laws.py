@@ -65,8 +65,9 @@ tangential_damping_factor = {factor}
 """
 
 
-def linear(more="", friction=FRICTION):
+def linear(more="", friction=FRICTION, tangential="spring"):
     return f"""[contact]
+tangential = "{tangential}"
 tension = true
 {more}
 [materials.glass]
@@ -99,10 +100,17 @@ def granular(tangential, friction=FRICTION):
     return f"hertz/material {YOUNG} {RESTITUTION} {POISSON} tangential {tangential} NULL 1.0 {friction} damping tsuji"
 
 
+def hooke(friction=FRICTION):
+    """Damping over the effective mass, and the tangential one as a share of it."""
+    return (f"hooke {STIFFNESS} {DAMPING_RATE} tangential linear_history {TANGENTIAL} {TANGENTIAL_DAMPING_RATE / DAMPING_RATE} {friction} "
+            "damping mass_velocity")
+
+
 SAME = "the same law"
 STICKS = 100.0  # a friction that no contact exceeds
-RADII = "damping matched; LAMMPS takes the slip at the radii, tsubu at the contact point, which the overlap brings nearer"
-CUT = "at the Coulomb limit tsubu cuts spring and dashpot alike (T2), the peer the spring alone"
+RADII = "LAMMPS takes the slip at the radii, tsubu at the contact point, which the overlap brings nearer"
+CUT = "at the Coulomb limit tsubu cuts spring and dashpot alike (T2), LAMMPS the spring alone (T13)"
+STICK = "at the limit tsubu cuts spring and dashpot alike (T2); LIGGGHTS holds the spring to the limit and damps only while it sticks"
 
 
 def cases():
@@ -112,7 +120,10 @@ def cases():
     rolling = {"coefficientRollingFriction": ROLLING}
     return [
         Case("linear, sticking", SAME, ("hooke/stiffness tangential history", linear_properties(STICKS)), "", linear(friction=STICKS)),
-        Case("linear, sliding", CUT, ("hooke/stiffness tangential history", linear_properties()), "", linear()),
+        Case("linear, sticking", RADII, (), hooke(STICKS), linear(friction=STICKS)),
+        Case("linear, sliding, luding_spring", RADII, (), hooke(), linear(tangential="luding_spring")),
+        Case("linear, sliding", CUT, (), hooke(), linear()),
+        Case("linear, sliding", STICK, ("hooke/stiffness tangential history", linear_properties()), "", linear()),
         Case("Hertz, smooth", SAME, ("hertz tangential off", hertz_properties()), "", hertz(tangential="none")),
         Case("Hertz and Mindlin, sticking", "LIGGGHTS keeps a displacement, whose force follows a stiffness that rises; tsubu's does not (T8)",
              ("hertz tangential history", hertz_properties(STICKS)), "", hertz(friction=STICKS)),

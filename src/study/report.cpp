@@ -117,7 +117,7 @@ std::string tableOf(const Study& study) {
     row.push_back(percent(point->bound()));
     rows.push_back(row);
   }
-  text += "\n" + aligned(rows) + "* on the front: nothing is both cheaper and more accurate. none: within the noise of the seeds and the error bar.\n";
+  text += fmt::format("\n{}{}", aligned(rows), "* on the front: nothing is both cheaper and more accurate. none: within the noise of the seeds and the error bar.\n");
   for (const PictureQuality& picture : study.pictures)
     text += fmt::format("picture        {:<8}{:.3g} s of CPU a frame, {} from the finest (root mean square)\n", picture.quality, picture.cost, percent(picture.error));
   for (const Point& point : study.points) {

@@ -24,7 +24,7 @@
 namespace tsubu::sim {
 
 using NormalLaws = TypeList<LinearNormal, HertzNormal>;
-using TangentialLaws = TypeList<Frictionless, SpringFriction, MindlinFriction, ViscousFriction, FrozenSpringFriction, ProjectedFriction>;
+using TangentialLaws = TypeList<Frictionless, SpringFriction, MindlinFriction, ViscousFriction, FrozenSpringFriction, LudingSpringFriction, ProjectedFriction>;
 using RollingLaws = TypeList<FreeRolling, ElasticPlasticRolling, ConstantRolling, ViscousRolling>;
 using TwistingLaws = TypeList<FreeTwisting, SpringTwisting>;
 

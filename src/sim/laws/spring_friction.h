@@ -19,8 +19,10 @@
 // (2008) 235) keeps the dashpot whole and gives the spring the rest, limit − η_t v_t; where the dashpot alone exceeds the limit, that
 // charges a spring that pushes along the slip, with energy that nobody spent. Steady sliding below it ends in the same state.
 //
-// Three laws share the formula: `spring` (k_t a constant), `frozen_spring` (the spring is not cut back but stays as it is while the
-// contact slides: where the load falls, a spring that pushes the grain along gives energy and keeps it), `mindlin` (k_t follows the overlap).
+// Four laws share the formula: `spring` (k_t a constant), `frozen_spring` (the spring is not cut back but stays as it is while the
+// contact slides: where the load falls, a spring that pushes the grain along gives energy and keeps it), `luding_spring` (Luding's way),
+// `mindlin` (k_t follows the overlap).
+//   T13  luding_spring, at the limit:  k_t δ_t = −F_t − η_t v_t,  |F_t| = μ |F_n|
 //   T7   k_t = 8 G* √(R* δ) = (4 G*/E*) S,   1/G* = (2−ν_i)/G_i + (2−ν_j)/G_j,   G = E/(2(1+ν))
 //   T8   what becomes of a stretched spring whose stiffness changes: memory.h
 //
@@ -33,7 +35,7 @@
 namespace tsubu::sim {
 
 enum class SpringStiffness { constant, followsNormal };
-enum class SlidingSpring { cutBack, frozen };
+enum class SlidingSpring { cutBack, frozen, getsTheRest };
 
 template <SpringStiffness kind, SlidingSpring sliding>
 struct SpringLaw {
@@ -106,6 +108,13 @@ struct SpringLaw {
     const bool slides = size > limit;
     const double keep = slides ? limit / larger(size, tiny) : 1.0;
     const V3 force = -keep * trial;
+    if constexpr (sliding == SlidingSpring::getsTheRest) {
+      const V3 spring = -force - damping * c.slip;  // at the instant of the force
+      memory.spring = spring + (1 - step.lead) * gain;
+      setStiffness(memory, k);
+      const double storedAfter = half * norm2(memory.spring), work = dot(spring + (step.mean - step.lead) * gain, c.slip) * step.dt;
+      return {force, storedBefore, storedAfter, damping * norm2(c.slip) * step.dt, work - (storedAfter - storedBefore)};
+    }
     if constexpr (sliding == SlidingSpring::frozen)
       memory.spring = select(slides, before, before + gain);
     else
@@ -136,6 +145,14 @@ struct FrozenSpringFriction : SpringLaw<SpringStiffness::constant, SlidingSpring
   static constexpr std::string_view name = "frozen_spring";
   static constexpr std::string_view sentence =
       "The same, but the spring stays as it was while the contact slides: it jumps when sliding turns (for comparison).";
+  static constexpr std::array reads = SpringFriction::reads;
+  static constexpr bool common = false;
+};
+
+struct LudingSpringFriction : SpringLaw<SpringStiffness::constant, SlidingSpring::getsTheRest> {
+  static constexpr std::string_view name = "luding_spring";
+  static constexpr std::string_view sentence =
+      "The same, but while the contact slides the dashpot stays whole and the spring gets the rest (T13): Luding's way, and that of LAMMPS.";
   static constexpr std::array reads = SpringFriction::reads;
   static constexpr bool common = false;
 };

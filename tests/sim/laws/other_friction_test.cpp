@@ -183,5 +183,46 @@ TEST(FrozenSpringFriction, CreatesEnergyWhereTheLoadFalls) {
   EXPECT_GT(cutWork, 0);
 }
 
+PropertyValues damped() {
+  PropertyValues v;
+  v[Property::friction] = 0.5;
+  v[Property::tangentialStiffness] = 900;
+  v[Property::tangentialDampingRate] = 4e3;  // of m* = 2e-5 kg: η_t = 0.08 kg/s
+  return v;
+}
+
+// T13: what the spring keeps is what the dashpot leaves of the limit. In steady sliding that is the value at which `spring` ends too.
+TEST(LudingSpringFriction, DashpotStaysWhole) {
+  const double eta = 0.08, speed = 1.5, limit = 0.5 * 0.7;
+  for (const double lead : {0.5, 1.0}) {
+    const auto pair = LudingSpringFriction::prepare(test::same(damped()), 1000, true);
+    const auto cut = SpringFriction::prepare(test::same(damped()), 1000, true);
+    VectorMemory memory{}, other{};
+    TangentialForce f{}, g{};
+    for (int k = 0; k < 4000; ++k) {
+      f = LudingSpringFriction::force(pair, sliding({0, -speed, 0}), pressing(0.7, 1000), {dt, lead}, memory);
+      g = SpringFriction::force(cut, sliding({0, -speed, 0}), pressing(0.7, 1000), {dt, lead}, other);
+    }
+    EXPECT_NEAR(f.force.y, limit, 1e-14);
+    const double ofAStep = 900 * speed * dt;
+    EXPECT_NEAR(memory.spring.y, -(limit - eta * speed) - (1 - lead) * ofAStep, 1e-12);
+    EXPECT_NEAR(other.spring.y, memory.spring.y, 2 * ofAStep);
+    EXPECT_NEAR(f.dashpot, eta * speed * speed * dt, 1e-18);
+    EXPECT_NEAR(f.dashpot + f.friction, limit * speed * dt, 0.51 * ofAStep * speed * dt) << "all that the slide costs";
+  }
+}
+
+// Where the dashpot alone exceeds the limit, the spring is turned round: it then holds energy that came from nowhere.
+TEST(LudingSpringFriction, ChargesItselfInAFastSlide) {
+  const double eta = 0.08, speed = 20, limit = 0.5 * 0.7;
+  const auto pair = LudingSpringFriction::prepare(test::same(damped()), 1000, true);
+  VectorMemory memory{};
+  const TangentialForce f = LudingSpringFriction::force(pair, sliding({speed, 0, 0}), pressing(0.7, 1000), {dt, 1.0}, memory);
+  EXPECT_NEAR(memory.spring.x, limit - eta * speed, 1e-12);
+  EXPECT_LT(memory.spring.x, 0) << "it pushes along the slip";
+  EXPECT_LT(f.friction, 0) << "and the account says that it was not paid for";
+  EXPECT_NEAR(f.storedAfter, 0.5 * memory.spring.x * memory.spring.x / 900, 1e-15);
+}
+
 }  // namespace
 }  // namespace tsubu::sim
