@@ -31,7 +31,8 @@ double shareOf(const std::string& text) {
   std::string unit = failure == std::errc() ? text.substr(static_cast<std::size_t>(end - text.data())) : "?";
   std::erase(unit, ' ');
   if (unit == "%") value /= 100;
-  if ((unit != "%" && !unit.empty()) || !(value > 0) || value > 1) throw Error(ErrorKind::scene, fmt::format("'{}' is no accuracy.", text), "write 2% or 0.02");
+  if ((unit != "%" && !unit.empty()) || !(value > 0) || value > 1)
+    throw Error(ErrorKind::scene, fmt::format("'{}' is no accuracy.", text), "write 2% or 0.02");
   return value;
 }
 

@@ -16,8 +16,8 @@ double shareOf(const std::string& text);
 /// The folder of the study that the options name, or else of the scene.
 std::filesystem::path studyFolder(const RunOptions& options);
 
-/// What the options ask for, taken from the saved study; nothing when they ask for nothing. Throws Error when there is no study, when it is of
-/// another scene, or when no setting of it will do.
+/// What the options ask for, taken from the saved study; nothing when they ask for nothing. Throws Error when there is no study, when it is
+/// of another scene, or when no setting of it will do.
 std::optional<study::SavedPoint> chosenSetting(const RunOptions& options);
 
 /// The study of this scene with these options, if there is one and it is of this scene.

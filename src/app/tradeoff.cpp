@@ -49,7 +49,8 @@ void plot(const study::Study& study, const fs::path& folder) {
   if (study.observables.empty()) return;
   study::writeText(folder / "plot.gp", study::plotScriptOf(study));
   const int code = gnuplot(folder);
-  if (code < 0) warn("There are no plots: gnuplot is not installed (apt-get install gnuplot-nox). Everything else is there; later: gnuplot plot.gp.");
+  if (code < 0)
+    warn("There are no plots: gnuplot is not installed (apt-get install gnuplot-nox). Everything else is there; later: gnuplot plot.gp.");
   if (code > 0) warn(fmt::format("There are no plots: gnuplot ended with {}. In {}: gnuplot plot.gp.", code, folder.string()));
 }
 
@@ -79,9 +80,12 @@ int tradeoff(const TradeoffOptions& options) {
   request.folder = options.folder.empty() ? study::folderOf(options.scene) : fs::path(options.folder);
 
   watchForInterrupt();
-  const study::Study study = study::tradeoff(request, [] { return interrupted(); }, [](const study::Progress& progress) {
-    fmt::print(stderr, "trial {} of {}, {:.0f} of {:.0f} s: {}\n", progress.done, progress.planned, progress.used, progress.budget, progress.label);
-  });
+  const study::Study study = study::tradeoff(
+      request, [] { return interrupted(); },
+      [](const study::Progress& progress) {
+        fmt::print(stderr, "trial {} of {}, {:.0f} of {:.0f} s: {}\n", progress.done, progress.planned, progress.used, progress.budget,
+                   progress.label);
+      });
   const std::string name = options.features ? "features" : "tradeoff";
   study::writeText(request.folder / (name + ".csv"), study::csvOf(study));
   study::writeStudy(request.folder / (name + ".json"), study);

@@ -10,14 +10,14 @@ namespace tsubu::app {
 
 struct TradeoffOptions {
   std::string scene;
-  std::string folder;             ///< empty: out/NAME.tradeoff
+  std::string folder;  ///< empty: out/NAME.tradeoff
   scene::Overrides overrides;
   std::string until;              ///< s; empty: the end of the scene
   std::vector<std::string> axes;  ///< empty: all
   bool features = false;
   std::string budget = "10m";
   int seeds = 3;
-  int threads = 0;                ///< 0: as many as the machine has cores
+  int threads = 0;  ///< 0: as many as the machine has cores
 };
 
 /// s: of "90", "90s", "10m", "10min" or "1h". Throws Error(scene).

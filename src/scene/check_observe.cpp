@@ -12,7 +12,8 @@ namespace {
 
 class ObserveCheck {
  public:
-  ObserveCheck(const Scene& scene, const PositionOf& positionOf, Findings& findings) : scene_(scene), positionOf_(positionOf), findings_(findings) {}
+  ObserveCheck(const Scene& scene, const PositionOf& positionOf, Findings& findings)
+      : scene_(scene), positionOf_(positionOf), findings_(findings) {}
 
   void of(const Observable& observable) {
     name_ = observable.name;
@@ -34,7 +35,9 @@ class ObserveCheck {
     if (std::find(known.begin(), known.end(), name) != known.end()) return;
     const auto nearest = nearestName(name, known);
     complain(key, fmt::format("There is no {} '{}'.", what, name),
-             nearest ? fmt::format("did you mean '{}'?", *nearest) : known.empty() ? std::string() : fmt::format("there is {}", listNames(known)));
+             nearest         ? fmt::format("did you mean '{}'?", *nearest)
+             : known.empty() ? std::string()
+                             : fmt::format("there is {}", listNames(known)));
   }
 
   void check(const DischargeRate& o) {
@@ -43,7 +46,8 @@ class ObserveCheck {
     // A run that is cut short may well be meant.
     if (o.from >= scene_.simulation.end)
       findings_.warnings.push_back({positionOf_({"observe", name_, "from"}),
-                                    fmt::format("Crossings are counted from {} s on; the run ends at {} s.", o.from, scene_.simulation.end), {}});
+                                    fmt::format("Crossings are counted from {} s on; the run ends at {} s.", o.from, scene_.simulation.end),
+                                    {}});
   }
   void check(const TimeToEmpty& o) {
     if (o.box.has_value() == !o.counter.empty()) complain({}, "What is to be empty is told by either a counter or a box.");
@@ -64,7 +68,8 @@ class ObserveCheck {
     if (!scene_.simulation.ledger) complain({}, "Without a ledger there is no residual.", "write ledger = true in [simulation]");
   }
   void check(const KineticEnergy&) {
-    if (!scene_.simulation.ledger) complain({}, "Without a ledger the kinetic energy is not added up.", "write ledger = true in [simulation]");
+    if (!scene_.simulation.ledger)
+      complain({}, "Without a ledger the kinetic energy is not added up.", "write ledger = true in [simulation]");
   }
   void check(const auto&) {}
 

@@ -27,7 +27,9 @@ struct DescribeObservable {
     form.vector({"axis", "Along which it is told; any length."}, o.axis, number, VectorRule::notZero);
     form.text({"material", "Of grains of this material alone. Absent: of all."}, o.material);
   }
-  void operator()(AngleOfRepose& o) const { form.vector({"point", "A point of the axis of the heap, which stands against gravity."}, o.point, length); }
+  void operator()(AngleOfRepose& o) const {
+    form.vector({"point", "A point of the axis of the heap, which stands against gravity."}, o.point, length);
+  }
   void operator()(RunOut& o) const {
     form.vector(required("direction", "Along which grains run; any length."), o.direction, number, VectorRule::notZero);
     form.quantity({"share", "Of the grains that are behind the front; 1: the furthest grain."}, o.share, number, {0, 1, false, false});
@@ -53,15 +55,17 @@ void describeObservable(Form& form, Observable& observable) {
       {"largest_overlap", "Of any contact, in radii of the smaller grain."},
       {"energy_residual", "What no account of the ledger explains in the end, as a share of the energy turned over."},
       {"kinetic_energy", "Of all grains, in the end."}};
-  byWord(form, required("kind", "What is measured; \"largest\" means of the rows of the ledger."), observable.kind, kinds, DescribeObservable{form});
+  byWord(form, required("kind", "What is measured; \"largest\" means of the rows of the ledger."), observable.kind, kinds,
+         DescribeObservable{form});
 }
 
 }  // namespace
 
 void describeObserve(Form& form, Scene& scene) {
-  form.table({"observe", "What the scene is about, in a few numbers: in run.json, and what `tsubu tradeoff` measures errors of."}, [&](Form& f) {
-    f.others({"name", "A number to be measured."}, namedEntries(scene.observe, describeObservable));
-  });
+  form.table({"observe", "What the scene is about, in a few numbers: in run.json, and what `tsubu tradeoff` measures errors of."},
+             [&](Form& f) {
+               f.others({"name", "A number to be measured."}, namedEntries(scene.observe, describeObservable));
+             });
 }
 
 }  // namespace tsubu::scene

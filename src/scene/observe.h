@@ -20,7 +20,7 @@ struct DischargeRate {
 
 /// s: when a counter has seen this share of all grains that the scene ever had, or a box holds no more than the rest.
 struct TimeToEmpty {
-  std::string counter;                 ///< empty: the box says
+  std::string counter;  ///< empty: the box says
   std::optional<sim::BoxRegion> box;
   double share = 0.9;
   bool operator==(const TimeToEmpty&) const = default;

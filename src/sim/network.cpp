@@ -44,7 +44,8 @@ double dot(const Motion& a, const Motion& b) {
 /// A step of velocity Verlet as a linear map of positions, half-step velocities, last accelerations and springs across (I2, T5, T6).
 class VerletMap {
  public:
-  VerletMap(const ContactNetwork& network, double dt) : network_(network), dt_(dt), grains_(network.inverseMass.size()), springs_(network.links.size()) {
+  VerletMap(const ContactNetwork& network, double dt)
+      : network_(network), dt_(dt), grains_(network.inverseMass.size()), springs_(network.links.size()) {
     Random random(2, 0);
     for (Grain6& g : grains_)
       for (int k = 0; k < 3; ++k) g.u[k] = random.uniform(-1, 1) * dt, g.w[k] = random.uniform(-1, 1) * dt;
@@ -105,8 +106,11 @@ class VerletMap {
     springs.slip = slip, springs.spin = spin;
     const double least = 3.5 * link.across.stiffness * link.inverseMass * dt_ * dt_ * dt_;  // T6
     const double dashpot = std::max(link.across.damping, least * link.across.stiffness);
-    const Vec3 force = -(link.along.stiffness * stretch + link.along.damping * along) * n - link.across.stiffness * springs.across - dashpot * slip;
-    const auto resist = [&](const Link::Spring& spring, const Vec3& turned, const Vec3& rate) { return Vec3(-spring.stiffness * turned - spring.damping * rate); };
+    const Vec3 force =
+        -(link.along.stiffness * stretch + link.along.damping * along) * n - link.across.stiffness * springs.across - dashpot * slip;
+    const auto resist = [&](const Link::Spring& spring, const Vec3& turned, const Vec3& rate) {
+      return Vec3(-spring.stiffness * turned - spring.damping * rate);
+    };
     const Vec3 twisted = springs.turned.dot(n) * n, twist = spin.dot(n) * n;
     const Vec3 moment = resist(link.rolling, springs.turned - twisted, spin - twist) + resist(link.twisting, twisted, twist);
     const Vec3 couple = n.cross(force);
@@ -139,9 +143,9 @@ double endOfVerlet(const ContactNetwork& network, double around) {
 
 /// \brief S8. At the end of stability the stiffest mode changes its sign in every step, λ = −1, which turns the scheme into
 ///   λ_max(Δt² K + 2 s Δt C) = 4
-/// with K and C scaled by the masses, s as in S2: exact for any damping, proportional to stiffness or not. In velocity Verlet springs across are
-/// stretched by velocities that such a mode does not have, and their modes end with a pair of complex roots: there the map of a whole step is
-/// iterated (VerletMap), between steps that are surely stable and surely not.
+/// with K and C scaled by the masses, s as in S2: exact for any damping, proportional to stiffness or not. In velocity Verlet springs
+/// across are stretched by velocities that such a mode does not have, and their modes end with a pair of complex roots: there the map of a
+/// whole step is iterated (VerletMap), between steps that are surely stable and surely not.
 class SpectralLimit {
  public:
   SpectralLimit(const ContactNetwork& network, Integrator integrator)
@@ -153,7 +157,8 @@ class SpectralLimit {
     mode_.resize(network_.inverseMass.size());
     for (Motion6& m : mode_)
       for (int k = 0; k < 6; ++k) m[k] = random.uniform(-1, 1);
-    if (integrator_ == Integrator::explicitEuler || integrator_ == Integrator::rungeKutta) return stableStep(iterate(1, 0), integrator_, true);
+    if (integrator_ == Integrator::explicitEuler || integrator_ == Integrator::rungeKutta)
+      return stableStep(iterate(1, 0), integrator_, true);
     // Undamped first; then Δt is the smallest that any mode allows, and the mode that has it the largest eigenvalue at that Δt.
     double dt = 2 / std::sqrt(iterate(1, 0).stiffness);
     for (int round = 0; round < 20; ++round) {
@@ -162,7 +167,9 @@ class SpectralLimit {
       dt = std::min(dt, next);
       if (settled) break;
     }
-    const auto across = [](const Link& link) { return link.across.stiffness > 0 || link.rolling.stiffness > 0 || link.twisting.stiffness > 0; };
+    const auto across = [](const Link& link) {
+      return link.across.stiffness > 0 || link.rolling.stiffness > 0 || link.twisting.stiffness > 0;
+    };
     if (verlet_ && std::any_of(network_.links.begin(), network_.links.end(), across)) dt = endOfVerlet(network_, dt);
     return dt;
   }
@@ -262,8 +269,9 @@ ContactNetwork networkOf(const Model& model, const Snapshot& snapshot, const Ins
     const double inverseMass = network.inverseMass[i] + (wall ? 0 : network.inverseMass[j]);
     const double effectiveRadius = wall ? a.radius : 1 / (1 / a.radius + 1 / b.radius);
     const std::size_t partner = wall ? model.walls[contact.wall()].material : snapshot.material[j];
-    Link link = linkOf(lawFunctions(law).modes(constants.of(snapshot.material[i] * n + partner), std::max(overlap, 0.0), effectiveRadius, inverseMass),
-                       inverseMass, effectiveRadius);
+    Link link = linkOf(
+        lawFunctions(law).modes(constants.of(snapshot.material[i] * n + partner), std::max(overlap, 0.0), effectiveRadius, inverseMass),
+        inverseMass, effectiveRadius);
     link.first = contact.first;
     link.second = wall ? -1 : contact.second;
     link.normal = contact.branch / distance;
@@ -285,11 +293,14 @@ StabilityLimits limitsOf(const ContactNetwork& network, const Model& model, cons
       if (end >= 0) lightest = std::min(lightest, 1 / network.inverseMass[static_cast<std::size_t>(end)]);
     meetSingle(lightest, link.along.stiffness, link.along.damping, limits.note, limits.duration, limits.undamped);
 
-    const double turning = link.firstLever * link.firstLever * network.inverseInertia[i] + (link.second < 0 ? 0 : link.secondLever * link.secondLever * network.inverseInertia[j]);
+    const double turning = link.firstLever * link.firstLever * network.inverseInertia[i] +
+                           (link.second < 0 ? 0 : link.secondLever * link.secondLever * network.inverseInertia[j]);
     const double spinning = network.inverseInertia[i] + (link.second < 0 ? 0 : network.inverseInertia[j]);
-    const auto mode = [](const Link::Spring& spring, double inverse) { return ContactMode{spring.stiffness * inverse, spring.damping * inverse}; };
-    const ContactMode ways[] = {mode(link.along, link.inverseMass), mode(link.across, link.inverseMass + turning), mode(link.rolling, spinning),
-                                mode(link.twisting, spinning)};
+    const auto mode = [](const Link::Spring& spring, double inverse) {
+      return ContactMode{spring.stiffness * inverse, spring.damping * inverse};
+    };
+    const ContactMode ways[] = {mode(link.along, link.inverseMass), mode(link.across, link.inverseMass + turning),
+                                mode(link.rolling, spinning), mode(link.twisting, spinning)};
     ContactMode stiffest;
     for (const ContactMode& way : ways) {
       const bool normal = &way == ways;

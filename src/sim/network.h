@@ -12,10 +12,10 @@ namespace tsubu::sim {
 
 /// A contact, linearised: it sticks, and its stiffness is that of its present overlap.
 struct Link {
-  std::int32_t first, second;  ///< grains by their place; second is −1 for a wall
-  Vec3 normal;                 ///< from the second to the first
+  std::int32_t first, second;      ///< grains by their place; second is −1 for a wall
+  Vec3 normal;                     ///< from the second to the first
   double firstLever, secondLever;  ///< m: from the centres to the contact point
-  double inverseMass;          ///< 1/m*, 1/kg
+  double inverseMass;              ///< 1/m*, 1/kg
   /// N/m and kg/s along and across the normal; N m/rad and N m s of rolling and twisting.
   struct Spring {
     double stiffness = 0, damping = 0;
@@ -34,14 +34,14 @@ ContactNetwork networkOf(const Model& model, const Snapshot& snapshot, const Ins
 
 /// s, each infinite where it says nothing.
 struct StabilityLimits {
-  double note;          ///< Note 2.31: min(2√(m/k), 2m/η), each contact alone, m the lighter grain
-  double duration;      ///< Article: π√(m/k)
-  double undamped;      ///< Article: 2√(m/k)
-  double single;        ///< S2: each contact alone, with m*, spring and dashpot together
-  double gershgorin;    ///< S6: ω² ≤ max_i (2/m_i) Σ k_c, translation alone
-  double sum;           ///< S7: ω² ≤ max_i Σ ω_c², rigorous with rotation
-  double spectral;      ///< S8: the stiffest mode of the network
-  double rayleigh;      ///< the field's habit; needs moduli
+  double note;        ///< Note 2.31: min(2√(m/k), 2m/η), each contact alone, m the lighter grain
+  double duration;    ///< Article: π√(m/k)
+  double undamped;    ///< Article: 2√(m/k)
+  double single;      ///< S2: each contact alone, with m*, spring and dashpot together
+  double gershgorin;  ///< S6: ω² ≤ max_i (2/m_i) Σ k_c, translation alone
+  double sum;         ///< S7: ω² ≤ max_i Σ ω_c², rigorous with rotation
+  double spectral;    ///< S8: the stiffest mode of the network
+  double rayleigh;    ///< the field's habit; needs moduli
 };
 StabilityLimits limitsOf(const ContactNetwork& network, const Model& model, const Snapshot& snapshot);
 

@@ -1,9 +1,10 @@
 // From trials to errors.
 //
 // The error of a setting is the mean over the seeds of its difference to the reference at the same seed: the same seed places the same
-// grains, so what the start owes to chance falls out. Its noise is what that mean may be off by: t s/√n, where s, the standard deviation of the
-// differences, is hardly known from a few seeds and is drawn towards the median of all settings, which counts as two more degrees of freedom,
-// and t is Student's factor for 95 % (Smyth 2004, Stat. Appl. Genet. Mol. Biol. 3:3, for the same trouble with few repeats of many measurements).
+// grains, so what the start owes to chance falls out. Its noise is what that mean may be off by: t s/√n, where s, the standard deviation of
+// the differences, is hardly known from a few seeds and is drawn towards the median of all settings, which counts as two more degrees of
+// freedom, and t is Student's factor for 95 % (Smyth 2004, Stat. Appl. Genet. Mol. Biol. 3:3, for the same trouble with few repeats of many
+// measurements).
 
 #include <algorithm>
 #include <cmath>

@@ -22,8 +22,8 @@ Cell cellOf(const Vec3& position, double edge) {
 
 }  // namespace
 
-// With n_i grains in cell i, a share p_i of them marked: S² = Σ n_i (p_i − p)²/N. Apart it is p(1 − p); at random (K − 1) p(1 − p)/N in the mean
-// over K cells.
+// With n_i grains in cell i, a share p_i of them marked: S² = Σ n_i (p_i − p)²/N. Apart it is p(1 − p); at random (K − 1) p(1 − p)/N in the
+// mean over K cells.
 double mixingIndex(std::span<const Vec3> positions, std::span<const char> kind, double cell) {
   struct Content {
     double all = 0, marked = 0;

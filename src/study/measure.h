@@ -15,8 +15,8 @@ namespace tsubu::study {
 double mixingIndex(std::span<const Vec3> positions, std::span<const char> kind, double cell);
 
 /// D8. rad: the slope of a conical heap around the axis through `point` along `up` (any length): a straight line through the height of the
-/// surface (the highest resting grain in each square of two diameters) against the distance from the axis, from 0.2 to 0.8 of the radius of the
-/// heap. `gravity` in m/s²: a grain that is faster than (g d)^½/10 does not rest. NaN when there is no such surface.
+/// surface (the highest resting grain in each square of two diameters) against the distance from the axis, from 0.2 to 0.8 of the radius of
+/// the heap. `gravity` in m/s²: a grain that is faster than (g d)^½/10 does not rest. NaN when there is no such surface.
 double angleOfRepose(const Snapshot& snapshot, const Vec3& point, const Vec3& up, double gravity);
 
 /// D9. m: the coordinate along `direction` (any length) that this share of the grains do not exceed; 1: the largest. NaN without grains.

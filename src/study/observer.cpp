@@ -234,7 +234,9 @@ struct MakeGauge {
   using Made = std::unique_ptr<Gauge>;
   const scene::Scene& scene;
 
-  Made operator()(const scene::DischargeRate& o) const { return std::make_unique<RateGauge>(placeOf(scene.counters, o.counter), o.from, o.to); }
+  Made operator()(const scene::DischargeRate& o) const {
+    return std::make_unique<RateGauge>(placeOf(scene.counters, o.counter), o.from, o.to);
+  }
   Made operator()(const scene::TimeToEmpty& o) const {
     if (o.box) return std::make_unique<BoxEmptyGauge>(*o.box, o.share);
     return std::make_unique<CounterEmptyGauge>(placeOf(scene.counters, o.counter), o.share);
@@ -247,8 +249,12 @@ struct MakeGauge {
   }
   Made operator()(const scene::AngleOfRepose& o) const { return std::make_unique<SlopeGauge>(o.point, scene.simulation.gravity); }
   Made operator()(const scene::RunOut& o) const { return std::make_unique<FrontGauge>(o.direction, o.share); }
-  Made operator()(const scene::PeakForce& o) const { return std::make_unique<ForceGauge>(placeOf(scene.walls, o.wall), scene.walls.size()); }
-  Made operator()(const scene::MixingIndex& o) const { return std::make_unique<MixingGauge>(scene::materialIndex(scene, o.material), o.cell); }
+  Made operator()(const scene::PeakForce& o) const {
+    return std::make_unique<ForceGauge>(placeOf(scene.walls, o.wall), scene.walls.size());
+  }
+  Made operator()(const scene::MixingIndex& o) const {
+    return std::make_unique<MixingGauge>(scene::materialIndex(scene, o.material), o.cell);
+  }
   Made operator()(const scene::BrokenBonds&) const { return std::make_unique<BrokenGauge>(); }
   Made operator()(const scene::LargestOverlap&) const { return std::make_unique<OverlapGauge>(); }
   Made operator()(const scene::EnergyResidual&) const { return std::make_unique<ResidualGauge>(); }

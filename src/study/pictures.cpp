@@ -58,8 +58,10 @@ std::optional<std::vector<PictureQuality>> comparePictures(const Trial& trial, c
       const double start = cpuTime();
       Image image = renderer.draw((*seen)[k]);
       made.cost += (cpuTime() - start) / static_cast<double>(seen->size());
-      if (word == render::qualityWords.rbegin()) finest.push_back(std::move(image));
-      else made.error = std::max(made.error, difference(image, finest[k]));
+      if (word == render::qualityWords.rbegin())
+        finest.push_back(std::move(image));
+      else
+        made.error = std::max(made.error, difference(image, finest[k]));
     }
     qualities.push_back(made);
   }

@@ -50,7 +50,8 @@ std::string valueOf(const ObservableInfo& o) {
 std::string aligned(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> width;
   const auto letters = [](const std::string& text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
   };
   for (const auto& row : rows) {
     width.resize(std::max(width.size(), row.size()));
@@ -80,8 +81,8 @@ Json jsonOfPoint(const Study& study, const Point& point) {
   json["errors"] = Json::object();
   for (std::size_t k = 0; k < point.deviations.size(); ++k) {
     const Deviation& d = point.deviations[k];
-    json["errors"][study.observables[k].name] = {{"mean", jsonOf(d.mean)}, {"error", jsonOf(d.error)}, {"noise", jsonOf(d.noise)},
-                                                 {"floor", jsonOf(d.floor)}, {"none", d.none()}};
+    json["errors"][study.observables[k].name] = {
+        {"mean", jsonOf(d.mean)}, {"error", jsonOf(d.error)}, {"noise", jsonOf(d.noise)}, {"floor", jsonOf(d.floor)}, {"none", d.none()}};
   }
   json["trials"] = Json::array();
   for (const auto& [seed, outcome] : point.outcomes) {
@@ -97,8 +98,9 @@ bool shown(const Point& point) { return point.ran() && point.failure().empty() &
 }  // namespace
 
 std::string tableOf(const Study& study) {
-  std::string text = fmt::format("{}: the scene as it is takes {:.3g} s of CPU at {:.2g} of the stability limit; {} seed{} for each setting\n",
-                                 study.request.scene, study.scene().cost, study.safety, study.seeds, study.seeds == 1 ? "" : "s");
+  std::string text =
+      fmt::format("{}: the scene as it is takes {:.3g} s of CPU at {:.2g} of the stability limit; {} seed{} for each setting\n",
+                  study.request.scene, study.scene().cost, study.safety, study.seeds, study.seeds == 1 ? "" : "s");
   if (!study.complete) text += "Interrupted: the same command goes on where this one was.\n";
   if (study.observables.empty()) return text + "Nothing can be compared yet: there is no reference.\n";
   text += study.request.features ? "The scene as it is, with which all others are compared\n" : "Reference\n";
@@ -112,14 +114,17 @@ std::string tableOf(const Study& study) {
     if (shown(point)) order.push_back(&point);
   std::stable_sort(order.begin(), order.end(), [](const Point* a, const Point* b) { return a->cost < b->cost; });
   for (const Point* point : order) {
-    std::vector<std::string> row{point->pareto ? "*" : "", point->label, fmt::format("{:.3g}", point->cost), fmt::format("{:.2f}", point->cost / study.scene().cost)};
+    std::vector<std::string> row{point->pareto ? "*" : "", point->label, fmt::format("{:.3g}", point->cost),
+                                 fmt::format("{:.2f}", point->cost / study.scene().cost)};
     for (std::size_t k = 0; k < point->deviations.size(); ++k) row.push_back(verdict(point->deviations[k], study.observables[k].known));
     row.push_back(percent(point->bound()));
     rows.push_back(row);
   }
-  text += fmt::format("\n{}{}", aligned(rows), "* on the front: nothing is both cheaper and more accurate. none: within the noise of the seeds and the error bar.\n");
+  text += fmt::format("\n{}* on the front: nothing is both cheaper and more accurate. none: within the noise of the seeds and the error bar.\n",
+                      aligned(rows));
   for (const PictureQuality& picture : study.pictures)
-    text += fmt::format("picture        {:<8}{:.3g} s of CPU a frame, {} from the finest (root mean square)\n", picture.quality, picture.cost, percent(picture.error));
+    text += fmt::format("picture        {:<8}{:.3g} s of CPU a frame, {} from the finest (root mean square)\n", picture.quality,
+                        picture.cost, percent(picture.error));
   for (const Point& point : study.points) {
     if (!point.refused.empty()) text += fmt::format("not possible   {}: {}\n", point.label, point.refused);
     if (!point.failure().empty()) text += fmt::format("failed         {}: {}\n", point.label, point.failure());
@@ -132,7 +137,8 @@ std::string tableOf(const Study& study) {
 }
 
 std::string csvOf(const Study& study) {
-  std::string text = "axis,at,setting,cost_cpu_seconds,relative_cost,observable,unit,mean,error,noise,floor,none,bound,pareto,seeds,overrides\n";
+  std::string text =
+      "axis,at,setting,cost_cpu_seconds,relative_cost,observable,unit,mean,error,noise,floor,none,bound,pareto,seeds,overrides\n";
   for (const Point& point : study.points) {
     if (!shown(point)) continue;
     std::string overrides;
@@ -140,9 +146,9 @@ std::string csvOf(const Study& study) {
     for (std::size_t k = 0; k < point.deviations.size(); ++k) {
       const Deviation& d = point.deviations[k];
       text += fmt::format("{},{:.6g},{},{:.6g},{:.6g},{},{},{:.9g},{:.6g},{:.6g},{:.6g},{},{:.6g},{},{},{}\n", point.axis, point.at,
-                          quotedForCsv(point.label), point.cost, point.cost / study.scene().cost, study.observables[k].name, study.observables[k].unit,
-                          d.mean, d.error, d.noise, d.floor, d.none() ? 1 : 0, point.bound(), point.pareto ? 1 : 0, point.outcomes.size(),
-                          quotedForCsv(overrides));
+                          quotedForCsv(point.label), point.cost, point.cost / study.scene().cost, study.observables[k].name,
+                          study.observables[k].unit, d.mean, d.error, d.noise, d.floor, d.none() ? 1 : 0, point.bound(),
+                          point.pareto ? 1 : 0, point.outcomes.size(), quotedForCsv(overrides));
     }
   }
   return text;
@@ -162,8 +168,13 @@ void writeStudy(const std::filesystem::path& file, const Study& study) {
   json["share_of_limit"] = study.safety;
   json["observables"] = Json::array();
   for (const ObservableInfo& o : study.observables)
-    json["observables"].push_back({{"name", o.name}, {"unit", o.unit}, {"reference", jsonOf(o.reference)}, {"spread", jsonOf(o.spread)},
-                                   {"error_bar", o.bar}, {"scale", jsonOf(o.scale)}, {"reached", o.known}});
+    json["observables"].push_back({{"name", o.name},
+                                   {"unit", o.unit},
+                                   {"reference", jsonOf(o.reference)},
+                                   {"spread", jsonOf(o.spread)},
+                                   {"error_bar", o.bar},
+                                   {"scale", jsonOf(o.scale)},
+                                   {"reached", o.known}});
   json["points"] = Json::array();
   for (const Point& point : study.points) json["points"].push_back(jsonOfPoint(study, point));
   for (const PictureQuality& picture : study.pictures)
@@ -188,34 +199,40 @@ std::string plotScriptOf(const Study& study) {
   };
   // Along an axis the scene has a place as well; along that of steps its reference and refinement, too.
   const auto along = [](const std::string& axis, const std::string& observable, const std::string& y) {
-    const std::string others = axis == "step" ? "strstrt('scene reference refinement', strcol(1)) > 0 ? $2 : 1/0"
-                               : axis == "skin" ? "1/0" : "strcol(1) eq 'scene' ? 1 : 1/0";
+    const std::string others = axis == "step"   ? "strstrt('scene reference refinement', strcol(1)) > 0 ? $2 : 1/0"
+                               : axis == "skin" ? "1/0"
+                                                : "strcol(1) eq 'scene' ? 1 : 1/0";
     return fmt::format("(strcol(6) ne '{}' ? 1/0 : strcol(1) eq '{}' ? $2 : {}):({})", observable, axis, others, y);
   };
   const std::string error = "100*($9 > 1e-5 ? $9 : 1e-5)", low = "100*($9-$10 > 1e-5 ? $9-$10 : 1e-5)", high = "100*($9+$10)";
   for (const ObservableInfo& o : study.observables) {
     if (!o.known) continue;
-    text += fmt::format("\nset output 'cost_{}.png'\nset title '{}: error against cost' noenhanced\nset logscale xy\n"
-                        "set xlabel 'CPU time, s'\nset ylabel 'error against the reference, %'\nplot ",
-                        plain(o.name), o.name);
+    text += fmt::format(
+        "\nset output 'cost_{}.png'\nset title '{}: error against cost' noenhanced\nset logscale xy\n"
+        "set xlabel 'CPU time, s'\nset ylabel 'error against the reference, %'\nplot ",
+        plain(o.name), o.name);
     std::string parts;
     for (const std::string& axis : axes)
-      parts += fmt::format("{}'tradeoff.csv' using {}:({}):({}) every ::1 with yerrorbars pt 7 title '{}' noenhanced", parts.empty() ? "" : ", \\\n  ",
-                           at(axis, o.name, "$4", error), low, high, axis);
+      parts += fmt::format("{}'tradeoff.csv' using {}:({}):({}) every ::1 with yerrorbars pt 7 title '{}' noenhanced",
+                           parts.empty() ? "" : ", \\\n  ", at(axis, o.name, "$4", error), low, high, axis);
     text += parts + "\nunset logscale\n";
   }
   const std::set<std::string> numeric{"step", "stiffness", "grains", "skin"};
   for (const std::string& axis : axes) {
     if (!numeric.count(axis)) continue;
-    text += fmt::format("\nset output 'axis_{0}.png'\nset title 'error against {0}' noenhanced\nset logscale xy\nset xlabel '{1}' noenhanced\n"
-                        "set ylabel 'error against the reference, %'\nplot ",
-                        axis, axis == "step" ? "time step over the stability limit" : axis == "stiffness" ? "factor on the stiffness"
-                              : axis == "grains" ? "factor on the radii" : "skin over the smallest radius");
+    text += fmt::format(
+        "\nset output 'axis_{0}.png'\nset title 'error against {0}' noenhanced\nset logscale xy\nset xlabel '{1}' noenhanced\n"
+        "set ylabel 'error against the reference, %'\nplot ",
+        axis,
+        axis == "step"        ? "time step over the stability limit"
+        : axis == "stiffness" ? "factor on the stiffness"
+        : axis == "grains"    ? "factor on the radii"
+                              : "skin over the smallest radius");
     std::string parts;
     for (const ObservableInfo& o : study.observables)
       if (o.known)
-        parts += fmt::format("{}'tradeoff.csv' using {}:({}):({}) every ::1 with yerrorbars pt 7 title '{}' noenhanced", parts.empty() ? "" : ", \\\n  ",
-                             along(axis, o.name, error), low, high, o.name);
+        parts += fmt::format("{}'tradeoff.csv' using {}:({}):({}) every ::1 with yerrorbars pt 7 title '{}' noenhanced",
+                             parts.empty() ? "" : ", \\\n  ", along(axis, o.name, error), low, high, o.name);
     text += parts + "\nunset logscale\n";
   }
   return text;

@@ -23,16 +23,16 @@ struct SavedPoint {
   std::string label;
   scene::Overrides overrides;
   double cost = 0;
-  double bound = 0;         ///< no observable is farther from the reference, as measured
-  std::string worst;        ///< the observable that the bound is of
-  bool noise = false;       ///< is the bound noise, and no measured difference?
+  double bound = 0;    ///< no observable is farther from the reference, as measured
+  std::string worst;   ///< the observable that the bound is of
+  bool noise = false;  ///< is the bound noise, and no measured difference?
   bool pareto = false;
 };
 struct SavedStudy {
   std::filesystem::path file;
   std::string key;
-  scene::Overrides given;   ///< that the study was made with
-  double end = 0;           ///< s: trials ran until then
+  scene::Overrides given;  ///< that the study was made with
+  double end = 0;          ///< s: trials ran until then
   SavedPoint reference;
   std::vector<SavedPoint> points;  ///< all that ran to their ends, the reference included
 };
@@ -47,8 +47,8 @@ std::filesystem::path folderOf(const std::string& scene);
 /// Throws Error(scene) when there is none, with the best that there is.
 const SavedPoint& cheapestWithin(const SavedStudy& study, double accuracy);
 
-/// Three points of the front: draft, the cheapest within 10 %; standard, the cheapest within 3 %; reference, the finest. Where nothing is within,
-/// the most accurate on the front.
+/// Three points of the front: draft, the cheapest within 10 %; standard, the cheapest within 3 %; reference, the finest. Where nothing is
+/// within, the most accurate on the front.
 inline constexpr double draftAccuracy = 0.10, standardAccuracy = 0.03;
 /// Throws Error(scene) for another word.
 const SavedPoint& pointOfQuality(const SavedStudy& study, const std::string& quality);
@@ -56,9 +56,10 @@ const SavedPoint& pointOfQuality(const SavedStudy& study, const std::string& qua
 /// Throws Error(scene) when the scene with these overrides is not the one that was studied: seed, end and pictures apart.
 void refuseOtherScene(const SavedStudy& study, const std::string& scene, const scene::Overrides& overrides, const std::string& version);
 
-/// What `tsubu tradeoff --features` has found, for `tsubu explain`: which features the scene notices. Empty when there is no such study of this
-/// scene in the folder.
-std::string noticedOf(const std::filesystem::path& folder, const std::string& scene, const scene::Overrides& overrides, const std::string& version);
+/// What `tsubu tradeoff --features` has found, for `tsubu explain`: which features the scene notices. Empty when there is no such study of
+/// this scene in the folder.
+std::string noticedOf(const std::filesystem::path& folder, const std::string& scene, const scene::Overrides& overrides,
+                      const std::string& version);
 
 /// "step 0.9: 1.2 s of CPU, rate within 2.1 %"
 std::string describe(const SavedPoint& point);

@@ -63,7 +63,8 @@ SavedStudy readStudy(const std::filesystem::path& file, const std::string& scene
   } catch (const nlohmann::json::exception&) {
     // Said below: what is wrong in it is no matter to the user.
   }
-  throw Error(ErrorKind::files, fmt::format("The study '{}' is not complete.", file.string()), fmt::format("go on with: tsubu tradeoff {}", scene));
+  throw Error(ErrorKind::files, fmt::format("The study '{}' is not complete.", file.string()),
+              fmt::format("go on with: tsubu tradeoff {}", scene));
 }
 
 void refuseOtherScene(const SavedStudy& study, const std::string& scene, const scene::Overrides& overrides, const std::string& version) {
@@ -71,7 +72,8 @@ void refuseOtherScene(const SavedStudy& study, const std::string& scene, const s
   std::string given;
   for (const std::string& override : study.given)
     if (!override.starts_with("simulation.end=")) given += " --set '" + override + "'";
-  throw Error(ErrorKind::scene, fmt::format("The study '{}' is of another scene, or the scene has been changed since.", study.file.string()),
+  throw Error(ErrorKind::scene,
+              fmt::format("The study '{}' is of another scene, or the scene has been changed since.", study.file.string()),
               given.empty() ? fmt::format("make a new one: tsubu tradeoff {}", scene) : fmt::format("it was made with{}", given));
 }
 
@@ -83,7 +85,8 @@ const SavedPoint& cheapestWithin(const SavedStudy& study, double accuracy) {
     if (!nearest || point.bound < nearest->bound) nearest = &point;
   }
   if (best) return *best;
-  throw Error(ErrorKind::scene, fmt::format("No setting of the study is within {}. The nearest is {}.", percent(accuracy), describe(*nearest)),
+  throw Error(ErrorKind::scene,
+              fmt::format("No setting of the study is within {}. The nearest is {}.", percent(accuracy), describe(*nearest)),
               nearest->noise ? "more --seeds make the noise smaller" : "a larger --budget gives a finer reference");
 }
 
@@ -93,7 +96,9 @@ const SavedPoint& pointOfQuality(const SavedStudy& study, const std::string& qua
     throw Error(ErrorKind::scene, fmt::format("There is no quality '{}': expected draft, standard or reference.", quality));
   const double wanted = quality == "draft" ? draftAccuracy : standardAccuracy;
   // Cost decides among those within, accuracy among the others, which come after.
-  const auto rank = [wanted](const SavedPoint& point) { return point.bound <= wanted ? std::pair(0, point.cost) : std::pair(1, point.bound); };
+  const auto rank = [wanted](const SavedPoint& point) {
+    return point.bound <= wanted ? std::pair(0, point.cost) : std::pair(1, point.bound);
+  };
   const SavedPoint* best = &study.reference;
   for (const SavedPoint& point : study.points)
     if (point.pareto && rank(point) < rank(*best)) best = &point;
@@ -109,18 +114,21 @@ std::string qualitiesOf(const SavedStudy& study) {
   return text;
 }
 
-std::string noticedOf(const std::filesystem::path& folder, const std::string& scene, const scene::Overrides& overrides, const std::string& version) {
+std::string noticedOf(const std::filesystem::path& folder, const std::string& scene, const scene::Overrides& overrides,
+                      const std::string& version) {
   std::ifstream stream(folder / "features.json");
   const nlohmann::json json = stream ? nlohmann::json::parse(stream, nullptr, false) : nlohmann::json();
   try {
     if (!stream || keyOfStudy({scene, overrides}, json.at("end"), version) != json.at("scene_key")) return {};
     std::string text = fmt::format("features       as measured in {}\n", (folder / "features.json").string());
     for (const auto& point : json.at("points")) {
-      if (point.at("axis") != "features" || point.contains("refused") || (point.at("errors").empty() && !point.contains("failed"))) continue;
+      if (point.at("axis") != "features" || point.contains("refused") || (point.at("errors").empty() && !point.contains("failed")))
+        continue;
       std::string noticed;
       for (const auto& [name, error] : point.at("errors").items())
         if (!error.at("none").get<bool>())
-          noticed += fmt::format("{}{} {}", noticed.empty() ? "" : ", ", name, error.at("error").is_null() ? "not reached" : percent(numberIn(error.at("error"))));
+          noticed += fmt::format("{}{} {}", noticed.empty() ? "" : ", ", name,
+                                 error.at("error").is_null() ? "not reached" : percent(numberIn(error.at("error"))));
       const std::string what = point.contains("failed") ? "the run fails" : noticed.empty() ? "makes no difference" : "changes " + noticed;
       text += fmt::format("  {:<28}{}\n", point.at("label").get<std::string>(), what);
     }

@@ -97,14 +97,20 @@ class Writer {
         if (inlet.rateKind == scene::RateKind::number) writer.set({"grains", source.name, "rate"}, inlet.rate * fewer());
         if (inlet.count) count("count", *inlet.count);
       }
-      void operator()(const scene::FromFile&) const { throw Error(ErrorKind::scene, fmt::format("the grains of '{}' come from a file", source.name)); }
-      void operator()(const scene::Listed&) const { throw Error(ErrorKind::scene, fmt::format("the grains of '{}' have given places", source.name)); }
+      void operator()(const scene::FromFile&) const {
+        throw Error(ErrorKind::scene, fmt::format("the grains of '{}' come from a file", source.name));
+      }
+      void operator()(const scene::Listed&) const {
+        throw Error(ErrorKind::scene, fmt::format("the grains of '{}' have given places", source.name));
+      }
     };
     std::visit(Each{*this, source, factor}, source.from);
     std::visit([&](const auto& radii) { scaleRadii(source, radii, factor); }, source.radii.kind);
   }
 
-  void scaleRadii(const scene::GrainSource& source, const sim::ConstantRadius& r, double factor) { set({"grains", source.name, "radius"}, r.radius * factor); }
+  void scaleRadii(const scene::GrainSource& source, const sim::ConstantRadius& r, double factor) {
+    set({"grains", source.name, "radius"}, r.radius * factor);
+  }
   void scaleRadii(const scene::GrainSource& source, const sim::UniformRadius& r, double factor) {
     set({"grains", source.name, "radius", "min"}, r.min * factor);
     set({"grains", source.name, "radius", "max"}, r.max * factor);
@@ -139,12 +145,18 @@ double evaluations(const std::string& integrator) { return integrator == "rk4" ?
 std::string nameOf(sim::Integrator integrator) {
   using I = sim::Integrator;
   switch (integrator) {
-    case I::symplecticEuler: return "symplectic_euler";
-    case I::explicitEuler: return "explicit_euler";
-    case I::leapfrog: return "leapfrog";
-    case I::centralDifferences: return "central_differences";
-    case I::rungeKutta: return "rk4";
-    case I::velocityVerlet: break;
+    case I::symplecticEuler:
+      return "symplectic_euler";
+    case I::explicitEuler:
+      return "explicit_euler";
+    case I::leapfrog:
+      return "leapfrog";
+    case I::centralDifferences:
+      return "central_differences";
+    case I::rungeKutta:
+      return "rk4";
+    case I::velocityVerlet:
+      break;
   }
   return "velocity_verlet";
 }
@@ -202,7 +214,8 @@ std::string labelOf(const Setting& s) {
   const auto add = [&label](const std::string& text) { label += (label.empty() ? "" : ", ") + text; };
   if (s.safety) add(fmt::format("step {:.3g}", *s.safety));
   if (s.integrator) add(*s.integrator);
-  if (s.softening != 1) add(s.softening < 1 ? fmt::format("stiffness / {:.3g}", 1 / s.softening) : fmt::format("stiffness x {:.3g}", s.softening));
+  if (s.softening != 1)
+    add(s.softening < 1 ? fmt::format("stiffness / {:.3g}", 1 / s.softening) : fmt::format("stiffness x {:.3g}", s.softening));
   if (s.coarsening != 1) add(fmt::format("grains / {:.3g}", std::pow(s.coarsening, 3)));
   if (s.normal) add(*s.normal);
   if (s.tangential) add(*s.tangential == "none" ? "no friction" : *s.tangential);
@@ -268,7 +281,8 @@ std::vector<Feature> featuresOf(const scene::Scene& scene) {
   features.push_back({"twisting resistance", twisting, unless(contact.twisting != "none", "it")});
   memory.tangential = "viscous";
   features.push_back({"memory of contacts", memory, unless(rubs && contact.tangential != "viscous", "any")});
-  features.push_back({"rotation", {}, rubs ? "with friction grains turn, and without they do not: see friction" : "the scene does not model it"});
+  features.push_back(
+      {"rotation", {}, rubs ? "with friction grains turn, and without they do not: see friction" : "the scene does not model it"});
   tension.tension = !contact.tension;
   features.push_back({contact.tension ? "tension" : "one-sided contacts", tension, {}});
   equal.equalGrains = true;

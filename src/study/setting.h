@@ -11,13 +11,13 @@ namespace tsubu::study {
 
 /// Differences from the scene. Every member leaves things as they are by default.
 struct Setting {
-  std::optional<double> safety;  ///< the time step as a share of the stability limit
+  std::optional<double> safety;    ///< the time step as a share of the stability limit
   std::optional<double> timeStep;  ///< s: instead
   std::optional<std::string> integrator;
   std::optional<std::string> normal, tangential, rolling, twisting;  ///< laws
   std::optional<bool> tension;
-  double softening = 1;   ///< factor on the stiffness of all contacts
-  double coarsening = 1;  ///< factor on the radii, with f⁻³ times as many grains
+  double softening = 1;        ///< factor on the stiffness of all contacts
+  double coarsening = 1;       ///< factor on the radii, with f⁻³ times as many grains
   std::optional<double> skin;  ///< in smallest radii
   bool equalGrains = false;    ///< every source gets the radius that keeps its mass and number
 

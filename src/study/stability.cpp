@@ -60,8 +60,8 @@ sim::Model modelOf(const scene::Built& built, const Snapshot& snapshot) {
   return model;
 }
 
-/// Second differences of positions over three steps in a row, the largest of any grain, m. A mode at the end of stability changes its sign in every
-/// step, and velocities of the instant, means over two half steps, do not see it; what drifts has none.
+/// Second differences of positions over three steps in a row, the largest of any grain, m. A mode at the end of stability changes its sign
+/// in every step, and velocities of the instant, means over two half steps, do not see it; what drifts has none.
 class Jerk {
  public:
   void add(std::uint64_t step, std::vector<Vec3> positions) {
@@ -116,10 +116,11 @@ class Copies {
 /// Tries steps.
 class Trier {
  public:
-  Trier(sim::Model model, double overlap, int steps, const Stop& stop) : model_(std::move(model)), overlap_(overlap), steps_(steps), stop_(stop) {}
+  Trier(sim::Model model, double overlap, int steps, const Stop& stop)
+      : model_(std::move(model)), overlap_(overlap), steps_(steps), stop_(stop) {}
 
-  /// Copies that part by a factor per step; or a state out of balance, which stirs itself and may end in a clatter that never dies down: the
-  /// quietest moment of its second half is then louder than its beginning.
+  /// Copies that part by a factor per step; or a state out of balance, which stirs itself and may end in a clatter that never dies down:
+  /// the quietest moment of its second half is then louder than its beginning.
   bool unstable(double dt) const {
     const double way = hair * overlap_;
     try {
@@ -177,7 +178,9 @@ void bisect(const Trier& trier, const Stop& stop, Stability& found) {
   found.found = !trier.unstable(low) && trier.unstable(high);
   while (found.found && high / low > 1 + precision && !(stop && stop())) {
     // The prediction is the first guess: most often it halves the range at once.
-    const double guess = low < 0.98 * around && high > around ? 0.98 * around : high > 1.02 * around && low < 1.02 * around ? 1.02 * around : std::sqrt(low * high);
+    const double guess = low < 0.98 * around && high > around          ? 0.98 * around
+                         : high > 1.02 * around && low < 1.02 * around ? 1.02 * around
+                                                                       : std::sqrt(low * high);
     (trier.unstable(guess) ? high : low) = guess;
   }
   found.measured = std::sqrt(low * high);
@@ -206,11 +209,13 @@ std::optional<Stability> findStability(const StabilityRequest& request, const St
   found.grains = instant.grains.size();
   found.contacts = instant.contacts.size();
   if (instant.contacts.empty() && built.model.bonds.empty())
-    throw Error(ErrorKind::scene, fmt::format("At t = {:.4g} s nothing touches: there is nothing that could blow up.", found.time), "give another --at");
+    throw Error(ErrorKind::scene, fmt::format("At t = {:.4g} s nothing touches: there is nothing that could blow up.", found.time),
+                "give another --at");
   found.automatic = plan.limit;
   found.limitedBy = plan.limitedBy;
   if (!built.model.bonds.empty())
-    found.notes.push_back("Bonds are made anew for the trial; predictions of the network are for contacts alone, the automatic one knows bonds.");
+    found.notes.push_back(
+        "Bonds are made anew for the trial; predictions of the network are for contacts alone, the automatic one knows bonds.");
   found.predicted = sim::limitsOf(sim::networkOf(built.model, snapshot, instant), built.model, snapshot);
   const double overlap = instant.contacts.empty() ? 1e-3 * snapshot.radius[0] : meanOverlap(instant);
   bisect(Trier(modelOf(built, snapshot), overlap, request.steps, stop), stop, found);
@@ -221,8 +226,11 @@ std::optional<Stability> findStability(const StabilityRequest& request, const St
 }
 
 std::string tableOf(const Stability& s) {
-  std::string text = fmt::format("t = {:.4g} s: {} grain{}, {} contact{}\n", s.time, s.grains, s.grains == 1 ? "" : "s", s.contacts, s.contacts == 1 ? "" : "s");
-  if (s.found) text += fmt::format("blows up at    {:.4g} s, by trying\nthe scene      takes {:.3g} of that, set by {}\n", s.measured, s.safety, s.limitedBy);
+  std::string text = fmt::format("t = {:.4g} s: {} grain{}, {} contact{}\n", s.time, s.grains, s.grains == 1 ? "" : "s", s.contacts,
+                                 s.contacts == 1 ? "" : "s");
+  if (s.found)
+    text += fmt::format("blows up at    {:.4g} s, by trying\nthe scene      takes {:.3g} of that, set by {}\n", s.measured, s.safety,
+                        s.limitedBy);
   const sim::StabilityLimits& p = s.predicted;
   const std::pair<const char*, double> rows[] = {{"Note: min(2 (m/k)^1/2, 2 m/eta), one contact", p.note},
                                                  {"Article: pi (m/k)^1/2, duration of a contact", p.duration},
@@ -238,7 +246,10 @@ std::string tableOf(const Stability& s) {
     if (!std::isfinite(limit))
       text += "says nothing here\n";
     else
-      text += fmt::format("{:<12}{}\n", fmt::format("{:.4g} s", limit), s.found ? fmt::format("{:.2f} of what is measured{}", limit / s.measured, limit > 1.03 * s.measured ? ": too long" : "") : std::string());
+      text += fmt::format(
+          "{:<12}{}\n", fmt::format("{:.4g} s", limit),
+          s.found ? fmt::format("{:.2f} of what is measured{}", limit / s.measured, limit > 1.03 * s.measured ? ": too long" : "")
+                  : std::string());
   }
   for (const std::string& note : s.notes) text += fmt::format("note           {}\n", note);
   return text;

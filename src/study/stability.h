@@ -19,22 +19,22 @@ struct StabilityRequest {
 };
 
 struct Stability {
-  double time = 0;             ///< s: of the state
+  double time = 0;  ///< s: of the state
   std::size_t grains = 0, contacts = 0;
-  double measured = 0;         ///< s: stable below, unstable above, to half a per cent
-  bool found = true;           ///< false: stable, or unstable, at every step that was tried
+  double measured = 0;  ///< s: stable below, unstable above, to half a per cent
+  bool found = true;    ///< false: stable, or unstable, at every step that was tried
   sim::StabilityLimits predicted{};
-  double automatic = 0;        ///< s: what the automatic step takes for the limit, before any contact is known (S3–S5)
-  double safety = 0;           ///< the scene's own step over the measured limit
+  double automatic = 0;  ///< s: what the automatic step takes for the limit, before any contact is known (S3–S5)
+  double safety = 0;     ///< the scene's own step over the measured limit
   std::string limitedBy;
   std::vector<std::string> notes;
 };
 
 /// \brief Runs the scene to `at`, then tries steps from the state that it has there: contacts as they are, grains at rest, walls still.
 ///
-/// Two copies that differ by velocities of a hair's breadth per step take the same steps: apart they grow at most in proportion to their number
-/// where the step is stable, and by a factor in every step where it is not. Throws Error(scene) when there is no contact; nothing when `stop`
-/// said so.
+/// Two copies that differ by velocities of a hair's breadth per step take the same steps: apart they grow at most in proportion to their
+/// number where the step is stable, and by a factor in every step where it is not. Throws Error(scene) when there is no contact; nothing
+/// when `stop` said so.
 std::optional<Stability> findStability(const StabilityRequest& request, const Stop& stop);
 
 std::string tableOf(const Stability& stability);

@@ -41,7 +41,12 @@ struct Job {
 class Runner {
  public:
   Runner(Study& study, const scene::Scene& scene, const Stop& stop, const std::function<void(const Progress&)>& tell)
-      : study_(study), scene_(scene), request_(study.request), stop_(stop), tell_(tell), store_(request_.folder / "trials", request_.version) {}
+      : study_(study),
+        scene_(scene),
+        request_(study.request),
+        stop_(stop),
+        tell_(tell),
+        store_(request_.folder / "trials", request_.version) {}
 
   Trial trialOf(const Point& point, int seed) const {
     Trial trial{request_.scene, request_.overrides};
@@ -73,9 +78,7 @@ class Runner {
     if (broken()) study_.complete = false;
   }
 
-  double used() const {
-    return std::max(cost_ / request_.threads, std::chrono::duration<double>(Clock::now() - start_).count());
-  }
+  double used() const { return std::max(cost_ / request_.threads, std::chrono::duration<double>(Clock::now() - start_).count()); }
 
  private:
   bool broken() const { return stop_ && stop_(); }
@@ -102,8 +105,10 @@ class Runner {
         lock.lock();
         const double now = used() + underway_ / request_.threads;
         const bool allowed = must || now + cost / request_.threads <= request_.budget;
-        if (allowed) underway_ += cost;
-        else leaveOut(point);
+        if (allowed)
+          underway_ += cost;
+        else
+          leaveOut(point);
         lock.unlock();
         if (!allowed) return;
         const Stop stop = [&] { return broken() || (!must && used() > grace * request_.budget); };
@@ -133,8 +138,8 @@ class Runner {
     const double whole = cost / std::max(done, 1e-9);
     if (cost < 3 || leastTrials * whole / request_.threads <= request_.budget) return false;
     throw Error(ErrorKind::scene,
-                fmt::format("One trial takes about {:.2g} s of CPU, and a study {:.0f} of them at least: more than the budget of {:.3g} s.", whole,
-                            leastTrials, request_.budget),
+                fmt::format("One trial takes about {:.3g} s of CPU, and a study {:.0f} of them at least: more than the budget of {:.3g} s.",
+                            whole, leastTrials, request_.budget),
                 "give more --budget, a shorter --until, or fewer grains");
   }
 
@@ -240,7 +245,8 @@ class Planner {
     if (share == 0)
       throw Error(ErrorKind::scene,
                   fmt::format("The budget of {:.3g} s is too small: one trial takes {:.3g} s of CPU, and a reference at half its step with "
-                              "its refinement {:.3g} s.", request().budget, pilot.cost, costs(0.5 * study_.safety, 1)),
+                              "its refinement {:.3g} s.",
+                              request().budget, pilot.cost, costs(0.5 * study_.safety, 1)),
                   "give more --budget, or a shorter --until");
     if (study_.seeds == 1 && study_.random) study_.notes.push_back("With one seed the noise is not known: a difference may be chance.");
     if (study_.random && study_.seeds < request().seeds)
@@ -306,8 +312,9 @@ class Planner {
           any = true;
           same = same && outcome.stateHash == base->second.stateHash;
         }
-    if (any) study_.notes.push_back(same ? "Skins gave the same bits, as they must: they are a matter of cost alone."
-                                         : "Skins did not give the same bits: this is a fault of tsubu.");
+    if (any)
+      study_.notes.push_back(same ? "Skins gave the same bits, as they must: they are a matter of cost alone."
+                                  : "Skins did not give the same bits: this is a fault of tsubu.");
   }
 
   void runFeatures(Runner& runner) {
@@ -333,7 +340,8 @@ class Planner {
     for (const std::string& name : axisNames()) {
       const Point* best = nullptr;
       for (const Point& point : study_.points)
-        if (point.axis == name && point.none() && point.cost < 0.97 * study_.scene().cost && (!best || point.cost < best->cost)) best = &point;
+        if (point.axis == name && point.none() && point.cost < 0.97 * study_.scene().cost && (!best || point.cost < best->cost))
+          best = &point;
       if (best) cheapest.push_back(best);
     }
     if (cheapest.size() < 2) return;

@@ -1,6 +1,6 @@
 #pragma once
-// Speed against accuracy, measured: a scene is run over a plan of settings with several seeds, and the error of its observables is put against
-// the cost.
+// Speed against accuracy, measured: a scene is run over a plan of settings with several seeds, and the error of its observables is put
+// against the cost.
 
 #include <algorithm>
 #include <filesystem>
@@ -17,14 +17,14 @@
 namespace tsubu::study {
 
 struct Request {
-  std::string scene;           ///< path
-  scene::Overrides overrides;  ///< of the user: the scene as it is
+  std::string scene;              ///< path
+  scene::Overrides overrides;     ///< of the user: the scene as it is
   std::vector<std::string> axes;  ///< empty: all of them but "picture", which is of frames and not of the simulation
-  bool features = false;       ///< switch features off instead of turning knobs
-  double budget = 600;         ///< s of this machine: CPU time of all trials over the number of threads
+  bool features = false;          ///< switch features off instead of turning knobs
+  double budget = 600;            ///< s of this machine: CPU time of all trials over the number of threads
   int seeds = 3;
-  int threads = 1;             ///< trials at a time
-  std::string version;         ///< of tsubu
+  int threads = 1;      ///< trials at a time
+  std::string version;  ///< of tsubu
   std::filesystem::path folder;
 };
 
@@ -42,16 +42,16 @@ struct Deviation {
 
 /// A setting with its trials.
 struct Point {
-  std::string axis;   ///< "scene", "reference", "refinement", the name of an axis, "features", or "together"
-  double at = 0;      ///< along the axis
+  std::string axis;  ///< "scene", "reference", "refinement", the name of an axis, "features", or "together"
+  double at = 0;     ///< along the axis
   Setting setting;
   std::string label;
-  scene::Overrides overrides;          ///< beside the user's, seed apart
-  std::map<int, Outcome> outcomes;     ///< by seed, from 1
-  std::string refused;                 ///< why it was not run
+  scene::Overrides overrides;       ///< beside the user's, seed apart
+  std::map<int, Outcome> outcomes;  ///< by seed, from 1
+  std::string refused;              ///< why it was not run
   // Found by analyse():
-  double cost = std::numeric_limits<double>::quiet_NaN();   ///< CPU seconds, mean over the seeds
-  std::vector<Deviation> deviations;   ///< by observable; empty when nothing could be compared
+  double cost = std::numeric_limits<double>::quiet_NaN();  ///< CPU seconds, mean over the seeds
+  std::vector<Deviation> deviations;                       ///< by observable; empty when nothing could be compared
   bool pareto = false;
 
   bool ran() const { return !outcomes.empty(); }
@@ -68,24 +68,24 @@ struct ObservableInfo {
   double spread = 0;     ///< standard deviation from seed to seed
   double bar = 0;        ///< the reference's error bar, as a share of the scale: from its refinement and its seeds
   double scale = 0;
-  bool known = true;     ///< did the reference come to it?
+  bool known = true;  ///< did the reference come to it?
 };
 
 struct Study {
   Request request;
-  std::string key;                  ///< of the scene as it is, seed apart
-  double end = 0;                   ///< s: of each trial
-  int seeds = 1;                    ///< of each setting
-  bool random = true;               ///< do seeds make a difference?
-  double safety = 0;                ///< of the scene as it is: Δt over the limit
-  std::vector<Point> points;        ///< the scene first, then reference and refinement
+  std::string key;            ///< of the scene as it is, seed apart
+  double end = 0;             ///< s: of each trial
+  int seeds = 1;              ///< of each setting
+  bool random = true;         ///< do seeds make a difference?
+  double safety = 0;          ///< of the scene as it is: Δt over the limit
+  std::vector<Point> points;  ///< the scene first, then reference and refinement
   std::vector<ObservableInfo> observables;
   std::vector<PictureQuality> pictures;  ///< from the finest; empty unless the axis "picture" is named
-  std::vector<std::string> leftOut; ///< by the budget
+  std::vector<std::string> leftOut;      ///< by the budget
   std::vector<std::string> notes;
-  double used = 0;                  ///< s of the budget
-  std::size_t ran = 0, known = 0;   ///< trials: run now, taken from the folder
-  bool complete = true;             ///< false when interrupted
+  double used = 0;                 ///< s of the budget
+  std::size_t ran = 0, known = 0;  ///< trials: run now, taken from the folder
+  bool complete = true;            ///< false when interrupted
 
   const Point& scene() const { return points[0]; }
   /// A feature is switched off against the scene as it is, at its own step: what a finer one would say is not asked.

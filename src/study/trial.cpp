@@ -68,7 +68,8 @@ std::optional<Outcome> run(const Trial& trial, const Stop& stop, const Watch& wa
       const std::uint64_t next = std::min((step / plan.stepsPerLedgerRow + 1) * plan.stepsPerLedgerRow, plan.steps);
       while (simulation->steps() < next) {
         if (stop && stop()) return std::nullopt;
-        if (watch && watch(static_cast<double>(simulation->steps()) / static_cast<double>(plan.steps), cpuTime() - start)) return std::nullopt;
+        if (watch && watch(static_cast<double>(simulation->steps()) / static_cast<double>(plan.steps), cpuTime() - start))
+          return std::nullopt;
         simulation->advance(std::min(next - simulation->steps(), portion / grains + 1));
       }
     }

@@ -32,9 +32,9 @@ struct Outcome {
   double wall = 0;                 ///< s: how long it took, whoever else used the machine
   double timeStep = 0, limit = 0;  ///< s: taken, and where the scene would be unstable
   std::uint64_t steps = 0, grainSteps = 0;
-  std::uint64_t grains = 0;        ///< in the end
-  std::string failure;             ///< why the run broke off; empty when it did not
-  std::string stateHash;           ///< in the end
+  std::uint64_t grains = 0;  ///< in the end
+  std::string failure;       ///< why the run broke off; empty when it did not
+  std::string stateHash;     ///< in the end
 
   bool complete() const { return failure.empty(); }
 };

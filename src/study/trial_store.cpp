@@ -53,9 +53,11 @@ std::string keyOf(const scene::Scene& scene, const std::string& version) {
   addText(hash, version);
   addText(hash, scene::write(withoutPictures(scene)));
   for (const scene::Wall& wall : scene.walls)
-    if (const auto* mesh = std::get_if<scene::MeshShape>(&wall.shape)) addText(hash, io::readTextFile(scene::resolved(scene, mesh->file), "mesh"));
+    if (const auto* mesh = std::get_if<scene::MeshShape>(&wall.shape))
+      addText(hash, io::readTextFile(scene::resolved(scene, mesh->file), "mesh"));
   for (const scene::GrainSource& source : scene.grains)
-    if (const auto* from = std::get_if<scene::FromFile>(&source.from)) addText(hash, io::readTextFile(scene::resolved(scene, from->file), "table of grains"));
+    if (const auto* from = std::get_if<scene::FromFile>(&source.from))
+      addText(hash, io::readTextFile(scene::resolved(scene, from->file), "table of grains"));
   return hash.text();
 }
 

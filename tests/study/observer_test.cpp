@@ -12,7 +12,8 @@ namespace {
 /// Ten grains one above the other that fall through a counter, one every 10 ms: grain k is g t_k²/2 above it, t_k = 0.1 s + 10 ms k.
 std::string falling(const std::string& observe) {
   std::string places;
-  for (int k = 0; k < 10; ++k) places += (k ? ", " : "") + std::string("[0, 0, ") + std::to_string(0.5 * 9.81 * std::pow(0.1 + 0.01 * k, 2)) + "]";
+  for (int k = 0; k < 10; ++k)
+    places += (k ? ", " : "") + std::string("[0, 0, ") + std::to_string(0.5 * 9.81 * std::pow(0.1 + 0.01 * k, 2)) + "]";
   return R"(
 [simulation]
 end = 0.3
@@ -25,7 +26,8 @@ friction = 0.4
 [grains.drops]
 source = "list"
 radius = "1 mm"
-positions = [)" + places + R"(]
+positions = [)" +
+         places + R"(]
 [walls.far]
 plane = { point = [0, 0, -10] }
 [counters.gate]

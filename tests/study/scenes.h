@@ -16,8 +16,8 @@ namespace tsubu::study {
 class Folder {
  public:
   explicit Folder(const std::string& name)
-      : path_(std::filesystem::path(testing::TempDir()) /
-              (name + "_" + testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + std::to_string(testing::UnitTest::GetInstance()->random_seed()))) {
+      : path_(std::filesystem::path(testing::TempDir()) / (name + "_" + testing::UnitTest::GetInstance()->current_test_info()->name() +
+                                                           "_" + std::to_string(testing::UnitTest::GetInstance()->random_seed()))) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

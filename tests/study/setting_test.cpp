@@ -21,7 +21,9 @@ Setting with(Value Setting::*member, Value value) {
 TEST(Setting, AsItIsNeedsNoOverride) { EXPECT_TRUE(overridesOf({}, shortScene()).empty()); }
 
 TEST(Setting, SoftensEveryPair) {
-  const std::string more = "[materials.\"hard steel\"]\ndensity = 7800\n[pairs.glass.\"hard steel\"]\nnormal_stiffness = 4000\n[grains.bed]\nmaterial = \"glass\"\n";
+  const std::string more =
+      "[materials.\"hard steel\"]\ndensity = 7800\n[pairs.glass.\"hard steel\"]\nnormal_stiffness = 4000\n[grains.bed]\nmaterial = "
+      "\"glass\"\n";
   std::string text = scene::shortScene;
   const std::string place = "[grains.bed]\n";
   const scene::Scene scene = scene::readText(text.replace(text.find(place), place.size(), more), "scene.toml");
@@ -30,7 +32,8 @@ TEST(Setting, SoftensEveryPair) {
 }
 
 TEST(Setting, SoftensTheModulusUnderHertz) {
-  const scene::Overrides hertz{"contact.normal=hertz", "contact.tangential=mindlin", "materials.glass.young_modulus=1 GPa", "materials.glass.poisson_ratio=0.2"};
+  const scene::Overrides hertz{"contact.normal=hertz", "contact.tangential=mindlin", "materials.glass.young_modulus=1 GPa",
+                               "materials.glass.poisson_ratio=0.2"};
   EXPECT_EQ(overridesOf(with(&Setting::softening, 0.01), shortScene(hertz)), scene::Overrides{"materials.glass.young_modulus=10000000"});
 }
 
@@ -70,7 +73,8 @@ TEST(Setting, AGivenTimeStepGivesWayToItsAxis) {
   Setting half;
   half.safety = 0.5;
   EXPECT_EQ(overridesOf(half, shortScene()), scene::Overrides{"simulation.safety=0.5"});
-  EXPECT_EQ(overridesOf(half, shortScene({"simulation.time_step=1e-6"})), (scene::Overrides{"simulation.time_step=auto", "simulation.safety=0.5"}));
+  EXPECT_EQ(overridesOf(half, shortScene({"simulation.time_step=1e-6"})),
+            (scene::Overrides{"simulation.time_step=auto", "simulation.safety=0.5"}));
 }
 
 // All that the axes offer can be read by the scene, or is refused with a reason; labels tell them apart.

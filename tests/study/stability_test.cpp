@@ -69,8 +69,8 @@ TEST(Stability, ChainsWithoutDashpotsBlowUpAtTwoOverOmega) {
   }
 }
 
-// With dashpots of one rate per effective mass: those at the walls have half the share of the springs between grains, so that damping is not
-// proportional to stiffness. The prediction holds all the same.
+// With dashpots of one rate per effective mass: those at the walls have half the share of the springs between grains, so that damping is
+// not proportional to stiffness. The prediction holds all the same.
 TEST(Stability, DashpotsThatAreNotProportional) {
   for (const char* rate : {"normal_damping_rate = \"300 1/s\"", "normal_damping_rate = \"3000 1/s\"", "restitution = 0.1"}) {
     for (const char* integrator : {"velocity_verlet", "symplectic_euler"}) {
@@ -86,9 +86,9 @@ TEST(Stability, FrictionAndRolling) {
   for (const char* tangential : {"0.5", "857", "2500", "6000"}) {
     for (const char* integrator : {"velocity_verlet", "symplectic_euler"}) {
       for (const char* e : {"0.8", "0.2"}) {
-      const std::string pairs = std::string("restitution = ") + e + std::string("\nfriction = 10\ntangential_stiffness = ") + tangential;
-      const Stability s = found(chain(3, "", pairs), {std::string("simulation.integrator=") + integrator});
-      EXPECT_NEAR(s.measured / s.predicted.spectral, 1, 0.03) << tangential << " " << integrator << " e " << e;
+        const std::string pairs = std::string("restitution = ") + e + std::string("\nfriction = 10\ntangential_stiffness = ") + tangential;
+        const Stability s = found(chain(3, "", pairs), {std::string("simulation.integrator=") + integrator});
+        EXPECT_NEAR(s.measured / s.predicted.spectral, 1, 0.03) << tangential << " " << integrator << " e " << e;
       }
     }
   }
@@ -98,8 +98,8 @@ TEST(Stability, FrictionAndRolling) {
 TEST(Stability, RulesForOneContactAreTooLong) {
   const Stability one = found(chain(1, "tangential = \"none\"", "restitution = 1"));
   const Stability many = found(chain(8, "tangential = \"none\"", "restitution = 1"));
-  EXPECT_NEAR(one.predicted.undamped / one.measured, std::sqrt(2), 0.02);   // two walls
-  EXPECT_NEAR(many.predicted.undamped / many.measured, 2, 0.05);            // ω² → 4k/m
+  EXPECT_NEAR(one.predicted.undamped / one.measured, std::sqrt(2), 0.02);  // two walls
+  EXPECT_NEAR(many.predicted.undamped / many.measured, 2, 0.05);           // ω² → 4k/m
   EXPECT_NEAR(many.predicted.duration / many.predicted.undamped, std::numbers::pi / 2, 1e-12);
   EXPECT_LT(many.automatic, many.measured);
 }

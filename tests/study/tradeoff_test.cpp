@@ -16,7 +16,7 @@ Request requestFor(const Folder& folder, const std::string& text) {
   request.scene = folder.file("scene.toml", text);
   request.folder = folder.path() / "study";
   request.version = "test";
-  request.budget = 60;
+  request.budget = 20;
   return request;
 }
 
@@ -57,7 +57,8 @@ TEST(Tradeoff, SofterSpringsArePressedInDeeper) {
   text.replace(text.find("height ="), text.size(), "overlap = { kind = \"largest_overlap\" }\n");
   Request request = requestFor(folder, text);
   request.axes = {"stiffness"};
-  request.overrides = {"simulation.gravity=[0, 0, 0]", "grains.ball.velocity=[0, 0, -0.1]", "output.ledger_interval=0.05 ms", "output.frame_interval=0.05 ms"};
+  request.overrides = {"simulation.gravity=[0, 0, 0]", "grains.ball.velocity=[0, 0, -0.1]", "output.ledger_interval=0.05 ms",
+                       "output.frame_interval=0.05 ms"};
   const Study study = made(request);
   int seen = 0;
   for (const Point& point : study.points) {
@@ -74,6 +75,7 @@ TEST(Tradeoff, ASecondCallRunsNothingAndSaysTheSame) {
   Request request = requestFor(folder, heap);
   request.axes = {"step", "skin"};
   request.seeds = 2;
+  request.threads = 2;
   const Study first = made(request), second = made(request);
   EXPECT_GT(first.ran, 10u);
   EXPECT_EQ(first.known, 0u);
@@ -90,7 +92,8 @@ TEST(Tradeoff, GoesOnWhereItWasInterrupted) {
   request.axes = {"step"};
   request.seeds = 2;
   std::size_t told = 0;
-  const Study broken = tradeoff(request, [&] { return told >= 3; }, [&](const Progress&) { ++told; });
+  const Study broken = tradeoff(
+      request, [&] { return told >= 3; }, [&](const Progress&) { ++told; });
   EXPECT_FALSE(broken.complete);
   EXPECT_EQ(broken.ran, 3u);
   EXPECT_NE(tableOf(broken).find("the same command goes on"), std::string::npos);
@@ -141,7 +144,8 @@ TEST(Tradeoff, KeepsToItsBudget) {
 // More samples in a pixel cost more and come nearer to the finest picture; the finest is itself.
 TEST(Tradeoff, PicturesAgainstTheFinest) {
   const Folder folder("tradeoff");
-  const auto pictures = comparePictures({folder.file("scene.toml", heap), {"picture.width=320", "picture.height=192", "simulation.end=0.01"}}, {});
+  const auto pictures =
+      comparePictures({folder.file("scene.toml", heap), {"picture.width=320", "picture.height=192", "simulation.end=0.01"}}, {});
   ASSERT_TRUE(pictures && pictures->size() == 3);
   EXPECT_EQ(pictures->front().quality, "fine");
   EXPECT_EQ(pictures->front().error, 0);
@@ -214,7 +218,8 @@ SavedPoint saved(const std::string& label, double cost, double bound, bool front
 
 TEST(SavedStudy, TakesTheCheapestThatKeepsThePromise) {
   SavedStudy study;
-  study.points = {saved("coarse", 1, 0.2, true), saved("fair", 2, 0.019, true), saved("dear", 3, 0.015, false), saved("fine", 9, 0.001, true)};
+  study.points = {saved("coarse", 1, 0.2, true), saved("fair", 2, 0.019, true), saved("dear", 3, 0.015, false),
+                  saved("fine", 9, 0.001, true)};
   study.reference = study.points.back();
   EXPECT_EQ(cheapestWithin(study, 0.02).label, "fair");
   EXPECT_EQ(cheapestWithin(study, 0.5).label, "coarse");
@@ -238,8 +243,7 @@ TEST(SavedStudy, APromiseIsKept) {
   EXPECT_THROW(refuseOtherScene(read, request.scene, {"pairs.restitution=0.6"}, "test"), Error);
   const double accuracy = 3 * study.points.back().bound();
   const SavedPoint& chosen = cheapestWithin(read, accuracy);
-  for (const Point& point : study.points)
-    EXPECT_TRUE(!point.ran() || point.bound() > accuracy || chosen.cost <= point.cost) << point.label;
+  for (const Point& point : study.points) EXPECT_TRUE(!point.ran() || point.bound() > accuracy || chosen.cost <= point.cost) << point.label;
   const double truth = valueOf(*run({request.scene, {"simulation.safety=0.005"}}), "height");
   const double value = valueOf(*run({request.scene, chosen.overrides}), "height");
   EXPECT_LE(std::abs(value - truth) / study.observables[0].scale, accuracy + study.observables[0].bar);
