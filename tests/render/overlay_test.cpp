@@ -68,7 +68,9 @@ TEST(Legend, LiesWithinThePicture) {
       EXPECT_LT(each.x + each.width, width);
       EXPECT_LT(each.y + each.height, height);
     }
-    if (height >= 180) EXPECT_LT(top.y + top.height, height / 4);
+    if (height >= 180) {
+      EXPECT_LT(top.y + top.height, height / 4);
+    }
   }
 }
 
