@@ -117,7 +117,7 @@ TEST(Extremes, DampingFarBeyondCritical) {
 // with g sin α.
 TEST(Extremes, FrictionFromNothingToAMillion) {
   const double alpha = 0.7, g = 9.81, mass = 2e-4, r = 2e-3, k = 2e4, span = 0.05;
-  for (const char* law : {"spring", "projected", "frozen_spring", "luding_spring"}) {
+  for (const char* law : {"spring", "projected", "frozen_spring", "luding_spring", "limited_spring"}) {
     for (const double mu : {0.0, 10.0, 1e6}) {
       Scenario s;
       s.model.contact.tangential = law;
@@ -400,7 +400,7 @@ PropertyValues atTheLimits(const LawFunctions& law, double e, double friction, d
 }
 
 // Every law with restitution, friction and resistance at the ends of what they may be: an oblique collision of spinning unequal grains, one
-// of them also with a wall. No energy comes from anywhere, but for the one law that is there to show that it makes some.
+// of them also with a wall. No energy comes from anywhere, but for the laws that are there to show that they make some.
 TEST(Extremes, EveryLawAtEveryLimit) {
   int seen = 0;
   for (std::size_t index = 0; index < lawCount(); ++index) {

@@ -78,7 +78,8 @@ LawFunctions functionsOf() {
   f.objection = objection<Law>;
   if constexpr (objection<Law>.empty()) {
     using F = AsFunctions<Law>;
-    f.traits = {Law::stateSize, Law::tangentialSize, Law::rollingSize, Law::odd, Law::turns, Law::rolls, Law::readsRadius, Law::Tangential::passive};
+    f.traits = {Law::stateSize, Law::tangentialSize, Law::rollingSize, Law::odd,
+                Law::turns, Law::rolls, Law::readsRadius, Law::Tangential::passive, Law::Tangential::withinLimit};
     f.constants = static_cast<std::size_t>(doublesIn<typename Law::Pair>);
     f.prepare = &F::prepare, f.evaluate = &F::evaluate, f.stored = &F::stored, f.modes = &F::modes;
   }

@@ -24,7 +24,8 @@
 namespace tsubu::sim {
 
 using NormalLaws = TypeList<LinearNormal, HertzNormal>;
-using TangentialLaws = TypeList<Frictionless, SpringFriction, MindlinFriction, ViscousFriction, FrozenSpringFriction, LudingSpringFriction, ProjectedFriction>;
+using TangentialLaws = TypeList<Frictionless, SpringFriction, MindlinFriction, ViscousFriction, FrozenSpringFriction, LudingSpringFriction,
+                                LimitedSpringFriction, MindlinDisplacementFriction, ProjectedFriction>;
 using RollingLaws = TypeList<FreeRolling, ElasticPlasticRolling, ConstantRolling, ViscousRolling>;
 using TwistingLaws = TypeList<FreeTwisting, SpringTwisting>;
 
@@ -75,6 +76,7 @@ struct LawTraits {
   unsigned odd;     ///< components that change sign when i and j change places, as bits
   bool turns, rolls, readsRadius;
   bool passive;     ///< never gives more energy than it got
+  bool withinLimit; ///< friction stays within Coulomb's limit
 };
 
 /// A law as plain functions of one contact: for observers, for the time step, for tests. The kernels use the type.

@@ -20,7 +20,7 @@ struct ProjectedFriction {
       "The path length of the slip as a spring along the present slip (T11, T12): cannot push back; for teaching.";
   static constexpr std::array reads{need(Property::friction), mayRead(Property::tangentialStiffness),
                                     mayReadEither(Property::tangentialDampingRate, Property::tangentialDampingFactor)};
-  static constexpr bool acts = true, needsGrowing = false, passive = true, common = false;
+  static constexpr bool acts = true, needsGrowing = false, passive = true, withinLimit = true, common = false;
   template <bool growing>
   using Memory = VectorMemory;
 

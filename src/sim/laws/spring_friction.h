@@ -19,10 +19,12 @@
 // (2008) 235) keeps the dashpot whole and gives the spring the rest, limit − η_t v_t; where the dashpot alone exceeds the limit, that
 // charges a spring that pushes along the slip, with energy that nobody spent. Steady sliding below it ends in the same state.
 //
-// Four laws share the formula: `spring` (k_t a constant), `frozen_spring` (the spring is not cut back but stays as it is while the
+// Six laws share the formula: `spring` (k_t a constant), `frozen_spring` (the spring is not cut back but stays as it is while the
 // contact slides: where the load falls, a spring that pushes the grain along gives energy and keeps it), `luding_spring` (Luding's way),
-// `mindlin` (k_t follows the overlap).
+// `mindlin` (k_t follows the overlap), and two that do what LIGGGHTS does, to compare with it: `limited_spring`, `mindlin_displacement`.
 //   T13  luding_spring, at the limit:  k_t δ_t = −F_t − η_t v_t,  |F_t| = μ |F_n|
+//   T14  limited_spring:  k_t |δ_t| ≤ μ |F_n|; the dashpot is added while δ_t is below it (beyond the limit then), and gone while it slides
+//   T15  mindlin_displacement:  T14, and when k_t changes it is δ_t that stays: the force rises with the load, with energy nobody spent
 //   T7   k_t = 8 G* √(R* δ) = (4 G*/E*) S,   1/G* = (2−ν_i)/G_i + (2−ν_j)/G_j,   G = E/(2(1+ν))
 //   T8   what becomes of a stretched spring whose stiffness changes: memory.h
 //
@@ -34,13 +36,16 @@
 
 namespace tsubu::sim {
 
-enum class SpringStiffness { constant, followsNormal };
-enum class SlidingSpring { cutBack, frozen, getsTheRest };
+/// followsNormal: what stays when it changes is T8. scalesForce: it is the displacement.
+enum class SpringStiffness { constant, followsNormal, scalesForce };
+enum class SlidingSpring { cutBack, frozen, getsTheRest, limitedAlone };
 
 template <SpringStiffness kind, SlidingSpring sliding>
 struct SpringLaw {
-  static constexpr bool follows = kind == SpringStiffness::followsNormal;
-  static constexpr bool acts = true, needsGrowing = follows, passive = sliding == SlidingSpring::cutBack;
+  static constexpr bool follows = kind != SpringStiffness::constant;
+  static constexpr bool limitsTheSpring = sliding == SlidingSpring::limitedAlone;
+  static constexpr bool acts = true, needsGrowing = follows, withinLimit = !limitsTheSpring;
+  static constexpr bool passive = kind != SpringStiffness::scalesForce && (sliding == SlidingSpring::cutBack || limitsTheSpring);
   template <bool>
   using Memory = std::conditional_t<follows, GrowingVectorMemory, VectorMemory>;
 
@@ -93,7 +98,7 @@ struct SpringLaw {
       own += p.damping * normal.damping;
       half = 0.5 / larger(k, tiny);
       const Eased e = eased(memory, k, p.rescales);
-      ease = e.factor;
+      ease = kind == SpringStiffness::scalesForce ? k / larger(memory.stiffness, tiny) : e.factor;
       storedBefore = e.before;
     } else {
       own += p.damping * normal.dampingPerRootStiffness;
@@ -102,12 +107,13 @@ struct SpringLaw {
     const V3 before = ease * carried(memory.spring, c.n, c.frameAngle);
     if constexpr (!follows) storedBefore = half * norm2(before);
     const V3 gain = (k * step.dt) * c.slip;
-    const V3 trial = before + step.lead * gain + damping * c.slip;
+    const V3 trial = limitsTheSpring ? before + step.lead * gain : before + step.lead * gain + damping * c.slip;
     const double limit = p.friction * std::abs(normal.force);
     const double size = norm(trial);
     const bool slides = size > limit;
     const double keep = slides ? limit / larger(size, tiny) : 1.0;
-    const V3 force = -keep * trial;
+    const double drag = limitsTheSpring ? (slides ? 0 : damping) : keep * damping;
+    const V3 force = limitsTheSpring ? -keep * trial - drag * c.slip : -keep * trial;
     if constexpr (sliding == SlidingSpring::getsTheRest) {
       const V3 spring = -force - damping * c.slip;  // at the instant of the force
       memory.spring = spring + (1 - step.lead) * gain;
@@ -122,7 +128,7 @@ struct SpringLaw {
     setStiffness(memory, k);
     const double storedAfter = half * norm2(memory.spring);
     const double springWork = keep * dot(before + step.mean * gain, c.slip) * step.dt;
-    return {force, storedBefore, storedAfter, keep * damping * norm2(c.slip) * step.dt, springWork - (storedAfter - storedBefore)};
+    return {force, storedBefore, storedAfter, drag * norm2(c.slip) * step.dt, springWork - (storedAfter - storedBefore)};
   }
 
  private:
@@ -157,12 +163,28 @@ struct LudingSpringFriction : SpringLaw<SpringStiffness::constant, SlidingSpring
   static constexpr bool common = false;
 };
 
+struct LimitedSpringFriction : SpringLaw<SpringStiffness::constant, SlidingSpring::limitedAlone> {
+  static constexpr std::string_view name = "limited_spring";
+  static constexpr std::string_view sentence =
+      "The same, but only the spring is held to the limit, and the dashpot acts while it sticks (T14): that of LIGGGHTS, for comparison.";
+  static constexpr std::array reads = SpringFriction::reads;
+  static constexpr bool common = false;
+};
+
 struct MindlinFriction : SpringLaw<SpringStiffness::followsNormal, SlidingSpring::cutBack> {
   static constexpr std::string_view name = "mindlin";
   static constexpr std::string_view sentence = "Coulomb friction with Mindlin's spring, whose stiffness follows the overlap (T7, T8); for hertz.";
   static constexpr std::array reads{need(Property::friction), need(Property::youngModulus), need(Property::poissonRatio),
                                     mayReadEither(Property::tangentialDampingRate, Property::tangentialDampingFactor)};
   static constexpr bool common = true;
+};
+
+struct MindlinDisplacementFriction : SpringLaw<SpringStiffness::scalesForce, SlidingSpring::limitedAlone> {
+  static constexpr std::string_view name = "mindlin_displacement";
+  static constexpr std::string_view sentence =
+      "Mindlin's spring that keeps its displacement when the stiffness changes, which can make energy; slides as limited_spring (T15): that of LIGGGHTS.";
+  static constexpr std::array reads = MindlinFriction::reads;
+  static constexpr bool common = false;
 };
 
 }  // namespace tsubu::sim

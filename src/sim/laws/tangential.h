@@ -19,14 +19,14 @@ struct TangentialForce {
 };
 
 // A tangential law says: does it `act`; does it `needGrowing` stiffness, that of a Hertz contact; is it `passive` (never gives more
-// energy than it got); is it `common` enough for kernels of its own for every instruction set.
+// energy than it got); does its force stay `withinLimit`, that of Coulomb; is it `common` enough for kernels of its own for every instruction set.
 
 /// No friction: no tangential force, no torque, no memory.
 struct Frictionless {
   static constexpr std::string_view name = "none";
   static constexpr std::string_view sentence = "No friction: grains slide freely and do not turn; no memory.";
   static constexpr std::array<Need, 0> reads{};
-  static constexpr bool acts = false, needsGrowing = false, passive = true, common = true;
+  static constexpr bool acts = false, needsGrowing = false, passive = true, withinLimit = true, common = true;
   template <bool growing>
   using Memory = NoMemory<Family::tangential>;
   struct Pair {};

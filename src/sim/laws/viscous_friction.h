@@ -16,7 +16,7 @@ struct ViscousFriction {
   static constexpr std::string_view name = "viscous";
   static constexpr std::string_view sentence = "A dashpot against the slip, within the Coulomb limit (T9); no memory, so nothing rests on it.";
   static constexpr std::array reads{need(Property::friction), need(Property::tangentialDampingRate)};
-  static constexpr bool acts = true, needsGrowing = false, passive = true, common = false;
+  static constexpr bool acts = true, needsGrowing = false, passive = true, withinLimit = true, common = false;
   template <bool growing>
   using Memory = NoMemory<Family::tangential>;
 
