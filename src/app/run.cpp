@@ -20,7 +20,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "io/text_file.h"
-#include "scene/build.h"
+#include "scene/pace.h"
 #include "sim/kernel/kernels.h"
 #include "study/observer.h"
 
@@ -29,8 +29,6 @@ namespace tsubu::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::uint64_t nextMultiple(std::uint64_t step, std::uint64_t of) { return (step / of + 1) * of; }
 
 /// A run under way: the simulation, and what it leaves behind.
 class Run {
@@ -53,6 +51,7 @@ class Run {
   RunReport report_;
   std::vector<std::string> sceneWarnings_;
   std::unique_ptr<sim::Simulation> simulation_;
+  std::unique_ptr<scene::Pace> pace_;
   std::unique_ptr<LedgerFile> ledger_;
   std::unique_ptr<DiagnosticsFiles> diagnostics_;
   std::unique_ptr<study::Observer> observer_;
@@ -102,6 +101,7 @@ Run::Run(const RunOptions& options) : options_(options) {
   if (scene.diagnostics) diagnostics_ = std::make_unique<DiagnosticsFiles>(folder_, *scene.diagnostics, std::move(walls));
   if (!scene.observe.empty()) observer_ = std::make_unique<study::Observer>(scene, scene.observe);
   simulation_ = std::make_unique<sim::Simulation>(std::move(built.model), report_.threads);
+  pace_ = std::make_unique<scene::Pace>(report_.plan);
   if (options.profile) simulation_->startProfile();
 }
 
@@ -129,7 +129,7 @@ int Run::go() {
     report("failed", error.what());
     throw;
   }
-  const bool complete = simulation_->steps() >= report_.plan.steps;
+  const bool complete = pace_->ended();
   report(complete ? "complete" : "interrupted", {});
   show(true);
   summarise();
@@ -137,27 +137,23 @@ int Run::go() {
 }
 
 void Run::loop() {
-  const scene::FramePlan& plan = report_.plan;
   sim::Simulation& sim = *simulation_;
   std::size_t warned = 0;
   for (;;) {
-    const std::uint64_t step = sim.steps();
-    const bool last = step >= plan.steps;
-    const bool row = step % plan.stepsPerLedgerRow == 0 || last;
+    const bool row = pace_->rowDue(), last = pace_->ended();
     if (row) ledger_->add(sim, report_.ledger);
     if (row && observer_) observer_->add(sim);
-    if (diagnostics_ && (step % (plan.stepsPerLedgerRow * diagnostics_->every()) == 0 || last)) diagnostics_->add(sim);
-    if (step % plan.stepsPerFrame == 0) writeFrame();
+    if (diagnostics_ && ((row && !last && pace_->rows() % diagnostics_->every() == 0) || last)) diagnostics_->add(sim);
+    if (pace_->frameDue()) writeFrame();
     for (; warned < sim.warnings().size(); ++warned) warn(sim.warnings()[warned]);
     if (last || interrupted()) return;
     show(false);
-    const std::uint64_t next = std::min({nextMultiple(step, plan.stepsPerLedgerRow), nextMultiple(step, plan.stepsPerFrame), plan.steps});
     const double before = progress_.secondsSinceStart();
     // In small portions, so that progress shows and Ctrl-C is heard between distant outputs too.
-    while (sim.steps() < next && !interrupted()) {
-      sim.advance(std::min<std::uint64_t>(next - sim.steps(), 200));
+    do {
+      pace_->advance(sim, 200);
       show(false);
-    }
+    } while (pace_->underWay() && !interrupted());
     report_.simulationTime += progress_.secondsSinceStart() - before;
   }
 }
@@ -195,6 +191,7 @@ void Run::report(const std::string& ended, const std::string& failure) {
   }
   if (observer_) r.observables = observer_->results();
   if (options_.profile) noteProfile();
+  if (r.plan.live) r.pace = *pace_;
   r.frames = film_ ? film_->frames() : 0;
   r.renderer = film_ ? film_->renderer() : "";
   writeReport(folder_ / "run.json", r);

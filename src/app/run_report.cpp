@@ -24,6 +24,11 @@ void writeReport(const std::filesystem::path& path, const RunReport& r) {
   json["dt"] = r.plan.timeStep;
   json["dt_limit"] = r.plan.limit;
   json["dt_limit_by"] = r.plan.limitedBy;
+  if (r.pace) {
+    json["dt_spectral"] = {{"shortest_step", r.pace->shortest()}, {"longest_step", r.pace->longest()}};
+    if (std::isfinite(r.pace->limit().step))
+      json["dt_spectral"].update({{"least_limit", r.pace->limit().step}, {"at", r.pace->limit().time}, {"by", r.pace->limit().by}});
+  }
   if (std::isfinite(r.singleContact.undamped))
     json["dt_of_single_contact_rules"] = {{"note", r.singleContact.note}, {"undamped", r.singleContact.undamped}, {"duration", r.singleContact.duration}};
   json["steps"] = r.steps;

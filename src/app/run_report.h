@@ -2,11 +2,12 @@
 // run.json: what was run, with what, and how it went.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "scene/build.h"
+#include "scene/pace.h"
 #include "sim/network.h"
 #include "sim/simulation.h"
 #include "study/observer.h"
@@ -24,6 +25,7 @@ struct RunReport {
   std::string failure;       ///< why, when it failed
   scene::FramePlan plan;
   sim::SingleContactRules singleContact{};  ///< what they would have allowed
+  std::optional<scene::Pace> pace;  ///< how steps have followed the network, if they did
   double slowMotion = 1;
   double frameRate = 30;     ///< of the film, 1/s
   std::uint64_t steps = 0;

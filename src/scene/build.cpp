@@ -15,6 +15,7 @@
 #include "sim/fields/gravity.h"
 #include "sim/pass.h"
 #include "sim/periodic.h"
+#include "sim/simulation.h"
 #include "sim/state.h"
 
 namespace tsubu::scene {
@@ -159,7 +160,7 @@ sim::Model buildModel(const Scene& scene) {
   model.showForces = scene.show.forces != render::ShownForces::none;
   const auto ofForces = [](const Observable& o) { return std::holds_alternative<PeakForce>(o.kind); };
   model.contactForces =
-      scene.diagnostics.has_value() || model.showForces || std::any_of(scene.observe.begin(), scene.observe.end(), ofForces);
+      scene.diagnostics.has_value() || model.showForces || s.limit == StepRule::spectral || std::any_of(scene.observe.begin(), scene.observe.end(), ofForces);
   model.watch = {s.overlapLimit, s.travelLimit, s.onViolation == OnViolation::stop};
   model.seed = s.seed;
   return model;
@@ -284,6 +285,14 @@ double smallestRadius(const sim::Model& model) {
   return smallest;
 }
 
+sim::StepLimit limitAtStart(const sim::Model& model, double step) {
+  sim::Model still = model;
+  still.timeStep = step;
+  still.contactForces = true;
+  still.ledger = still.watch.stop = false;
+  return sim::Simulation(std::move(still), 1).stableStep();
+}
+
 }  // namespace
 
 FramePlan planFrames(const Scene& scene, const sim::Model& model, double speed, std::vector<std::string>& warnings) {
@@ -291,7 +300,8 @@ FramePlan planFrames(const Scene& scene, const sim::Model& model, double speed, 
   FramePlan plan;
   plan.interval = frameInterval(scene.output);
   plan.ledgerInterval = ledgerInterval(scene.output);
-  const sim::TimeStepChoice choice = sim::chooseTimeStep(model);
+  const bool live = s.limit == StepRule::spectral;
+  const sim::TimeStepChoice choice = live ? sim::chooseStepForNewContacts(model) : sim::chooseTimeStep(model);
   plan.limit = choice.limit;
   if (!choice.warning.empty()) warnings.push_back(choice.warning);
   double step;
@@ -309,6 +319,15 @@ FramePlan planFrames(const Scene& scene, const sim::Model& model, double speed, 
     if (travel < step) {
       step = travel;
       plan.limitedBy = fmt::format("speed: up to {:.3g} m/s, half of travel_limit per step", speed);
+    }
+    if (live) {
+      plan.live = {s.safety, step, plan.limitedBy};
+      const sim::StepLimit now = limitAtStart(model, step);
+      if (now.step < plan.limit) plan.limit = now.step;
+      if (s.safety * now.step < step) {
+        step = s.safety * now.step;
+        plan.limitedBy = fmt::format("{} at the start; {} of the limit", now.by, s.safety);
+      }
     }
   }
   // The shorter interval is a whole number of steps, and so is the longer one, which is a whole number of the shorter.

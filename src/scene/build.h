@@ -2,6 +2,7 @@
 // The only place where the words of a scene become types: the model of the simulation, the style of the film, and when what is written.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,13 @@ struct FramePlan {
   std::uint64_t stepsPerLedgerRow = 0;
   std::uint64_t steps = 0;   ///< of the whole run
   std::uint64_t frames = 0;  ///< of the whole run, the first and the last included
+  /// Steps follow the live network (S9); then `timeStep` is the one to begin with, and `steps` what it would make of the run.
+  struct Live {
+    double safety;   ///< share of its limit that is taken
+    double longest;  ///< s: what a step never exceeds, for contacts yet to come
+    std::string longestBy;
+  };
+  std::optional<Live> live;
 };
 
 /// Everything a run needs. Walls in the order of the model, hidden ones included.

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "scene/check.h"
+#include "sim/time_step.h"
 
 namespace tsubu::scene {
 
@@ -17,6 +18,7 @@ class ValueCheck {
       : scene_(scene), positionOf_(positionOf), findings_(findings) {}
 
   void all() {
+    limit();
     if (scene_.simulation.domain) domain(*scene_.simulation.domain);
     for (const GrainSource& source : scene_.grains) grains(source);
     for (const Wall& wall : scene_.walls) motions(wall);
@@ -36,6 +38,17 @@ class ValueCheck {
   static Path inside(Path path, std::string key) {
     path.push_back(std::move(key));
     return path;
+  }
+
+  void limit() {
+    const Simulation& s = scene_.simulation;
+    if (s.limit != StepRule::spectral) return;
+    if (s.timeStep) complain({"simulation", "limit"}, "The limit sets the automatic time step, and time_step is given.", "write one of them");
+    try {
+      sim::checkChangingSteps(s.integrator);
+    } catch (const Error& error) {
+      for (const Diagnostic& what : error.diagnostics()) complain({"simulation", "limit"}, what.message, what.hint);
+    }
   }
 
   bool box(const Path& path, const sim::BoxRegion& b) {

@@ -81,11 +81,15 @@ struct Pairs {
 /// What happens when a grain overlaps too deeply or moves too far in a step.
 enum class OnViolation { stop, warn };
 
+/// Where the automatic time step comes from.
+enum class StepRule { packing, spectral };
+
 struct Simulation {
   double end = 0;  ///< s
   Vec3 gravity{0, 0, -9.81};
   sim::Integrator integrator = sim::Integrator::velocityVerlet;
   std::optional<double> timeStep;  ///< s; absent: from the stability limit
+  StepRule limit = StepRule::packing;
   double safety = 0.25;            ///< of the stability limit, when the time step is automatic
   std::uint64_t seed = 1;
   std::optional<sim::BoxRegion> domain;

@@ -87,8 +87,11 @@ std::string explain(const Scene& scene, const Built& built) {
   text += fmt::format("memory         {} bytes per grain, {} per contact, {} per listed pair: about {:.3g} MB\n", plan.bytesPerGrain,
                       plan.bytesPerContact, plan.bytesPerListedPair, memory / 1e6);
   text += fmt::format("time step      {:.6g} s, set by {} (stability limit {:.4g} s)\n", frames.timeStep, frames.limitedBy, frames.limit);
+  if (frames.live)
+    text += fmt::format("               and follows the stiffest mode of the live network: {} of its limit, {:.4g} s at most ({})\n", frames.live->safety,
+                        frames.live->longest, frames.live->longestBy);
   text += singleContactLine(built.model, frames.limit);
-  text += fmt::format("steps          {} for {:g} s\n", frames.steps, static_cast<double>(frames.steps) * frames.timeStep);
+  text += fmt::format("steps          {}{} for {:g} s\n", frames.live ? "by the first of them " : "", frames.steps, static_cast<double>(frames.steps) * frames.timeStep);
   text += fmt::format("frames         {} of {} x {} pixels, one every {:g} s ({} steps), slow motion {:g}\n", frames.frames,
                       scene.picture.width, scene.picture.height, frames.interval, frames.stepsPerFrame, slowMotion(scene.output));
   text += fmt::format("cost           roughly {} for {:.3g} million grain-steps on one core, and {} for the frames\n", duration(computing),

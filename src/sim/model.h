@@ -124,4 +124,8 @@ struct TimeStepChoice {
 /// \brief The stability limit from the model alone (docs/physics.md, S1–S5). Throws Error when there is nothing to derive it from.
 TimeStepChoice chooseTimeStep(const Model& model);
 
+/// The same beside the limit of the live network (S9): for grains that get their first contacts between one look at it and the next, and
+/// for what the network does not know (drag, magnets, heat, bonds that are made later).
+TimeStepChoice chooseStepForNewContacts(const Model& model);
+
 }  // namespace tsubu::sim

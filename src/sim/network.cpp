@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "core/random.h"
 #include "sim/pair_constants.h"
 #include "sim/pass.h"
@@ -101,11 +103,17 @@ class VerletMap {
     const Vec3 spin = seen[i].second - (wall ? zero : seen[j].second);
     const double stretch = (grains[i].x - (wall ? zero : grains[j].x)).dot(n), along = velocity.dot(n);
     const Vec3 slip = velocity - along * n;
-    springs.across += 0.5 * dt_ * (slip + springs.slip);
-    springs.turned += 0.5 * dt_ * (spin + springs.spin);
+    if (link.bond) {  // by the way that the grains have gone
+      const Vec3 gone = grains[i].u - (wall ? zero : grains[j].u) - (link.firstLever * grains[i].w + (wall ? zero : Vec3(link.secondLever * grains[j].w))).cross(n);
+      springs.across += dt_ * (gone - gone.dot(n) * n);
+      springs.turned += dt_ * (grains[i].w - (wall ? zero : grains[j].w));
+    } else {
+      springs.across += 0.5 * dt_ * (slip + springs.slip);
+      springs.turned += 0.5 * dt_ * (spin + springs.spin);
+    }
     springs.slip = slip, springs.spin = spin;
     const double least = 3.5 * link.across.stiffness * link.inverseMass * dt_ * dt_ * dt_;  // T6
-    const double dashpot = std::max(link.across.damping, least * link.across.stiffness);
+    const double dashpot = link.bond ? link.across.damping : std::max(link.across.damping, least * link.across.stiffness);
     const Vec3 force =
         -(link.along.stiffness * stretch + link.along.damping * along) * n - link.across.stiffness * springs.across - dashpot * slip;
     const auto resist = [&](const Link::Spring& spring, const Vec3& turned, const Vec3& rate) {
@@ -153,39 +161,72 @@ class SpectralLimit {
 
   double find() {
     if (network_.links.empty()) return infinite;
-    Random random(1, 0);
-    mode_.resize(network_.inverseMass.size());
-    for (Motion6& m : mode_)
-      for (int k = 0; k < 6; ++k) m[k] = random.uniform(-1, 1);
+    stir(1);
     if (integrator_ == Integrator::explicitEuler || integrator_ == Integrator::rungeKutta)
       return stableStep(iterate(1, 0), integrator_, true);
-    // Undamped first; then Δt is the smallest that any mode allows, and the mode that has it the largest eigenvalue at that Δt.
-    double dt = 2 / std::sqrt(iterate(1, 0).stiffness);
-    for (int round = 0; round < 20; ++round) {
-      const double next = stepOf(iterate(dt * dt, 2 * s() * dt));
-      const bool settled = std::abs(next / dt - 1) < 1e-5;
-      dt = std::min(dt, next);
-      if (settled) break;
-    }
+    const double dt = byModes();
     const auto across = [](const Link& link) {
-      return link.across.stiffness > 0 || link.rolling.stiffness > 0 || link.twisting.stiffness > 0;
+      return !link.bond && (link.across.stiffness > 0 || link.rolling.stiffness > 0 || link.twisting.stiffness > 0);
     };
-    if (verlet_ && std::any_of(network_.links.begin(), network_.links.end(), across)) dt = endOfVerlet(network_, dt);
+    return verlet_ && std::any_of(network_.links.begin(), network_.links.end(), across) ? endOfVerlet(network_, dt) : dt;
+  }
+
+  /// S9, from the mode that was found last and to it.
+  double findQuickly(StiffestMode& last) {
+    if (network_.links.empty()) return infinite;
+    most_ = 400, precise_ = 1e-4, carriedOn_ = verlet_ ? 2 : 1;
+    mode_ = std::move(last.shape);
+    stir(0.1);
+    double dt;
+    if (integrator_ == Integrator::explicitEuler || integrator_ == Integrator::rungeKutta) {
+      const ContactMode mode = iterate(1, 0);
+      dt = stableStep({mode.stiffness, mode.damping + network_.slowing}, integrator_, true);
+    } else {
+      dt = byModes();
+    }
+    last.shape = std::move(mode_);
     return dt;
   }
 
  private:
+  // A start that has something of everything: a mode of one corner never finds a stiffer one that is not joined to it. Most of what is added
+  // goes to the grain with the stiffest contacts.
+  void stir(double share) {
+    Random random(1, 0);
+    const std::size_t known = std::min(mode_.size(), network_.inverseMass.size());
+    mode_.resize(network_.inverseMass.size(), Motion6::Zero());
+    for (std::size_t g = 0; g < mode_.size(); ++g)
+      for (int k = 0; k < 6; ++k) mode_[g][k] += (g < known ? share : 1) * random.uniform(-1, 1) / std::sqrt(static_cast<double>(mode_.size()));
+    std::vector<double> sum(mode_.size(), 0);
+    for (const Link& link : network_.links)
+      for (const std::int32_t end : {link.first, link.second})
+        if (end >= 0) sum[static_cast<std::size_t>(end)] += (link.along.stiffness + link.across.stiffness) * network_.inverseMass[static_cast<std::size_t>(end)];
+    const auto stiffest = static_cast<std::size_t>(std::max_element(sum.begin(), sum.end()) - sum.begin());
+    for (int k = 0; k < 6; ++k) mode_[stiffest][k] += random.uniform(-1, 1);
+  }
+
+  // Undamped first; then Δt is the smallest that any mode allows, and the mode that has it the largest eigenvalue at that Δt.
+  double byModes() {
+    double dt = 2 / std::sqrt(iterate(1, 0).stiffness);
+    for (int round = 0; round < 20; ++round) {
+      const double next = stepOf(iterate(dt * dt, 2 * s() * dt));
+      const bool settled = std::abs(next / dt - 1) < 0.1 * precise_ + 1e-5;
+      dt = std::min(dt, next);
+      if (settled) break;
+    }
+    return dt;
+  }
+
   double s() const { return verlet_ ? 2 : 1; }
 
   double stepOf(const ContactMode& q) const {
-    const double half = s() * q.damping;
+    const double half = s() * (q.damping + network_.slowing);
     return 4 / (half + std::sqrt(half * half + 4 * q.stiffness));
   }
 
   // (stiffnessWeight K + dampingWeight C) x
   Motion apply(const Motion& x, double stiffnessWeight, double dampingWeight) const {
     Motion result(x.size(), Motion6::Zero());
-    const auto weigh = [&](const Link::Spring& spring) { return stiffnessWeight * spring.stiffness + dampingWeight * spring.damping; };
     for (const Link& link : network_.links) {
       const auto i = static_cast<std::size_t>(link.first), j = static_cast<std::size_t>(std::max(link.second, 0));
       const bool wall = link.second < 0;
@@ -193,8 +234,10 @@ class SpectralLimit {
       const double mj = wall ? 0 : std::sqrt(network_.inverseMass[j]), tj = wall ? 0 : std::sqrt(network_.inverseInertia[j]);
       const Vec3 &n = link.normal, ui = mi * x[i].head<3>(), wi = ti * x[i].tail<3>(), uj = mj * x[j].head<3>(), wj = tj * x[j].tail<3>();
       const Vec3 slip = ui - uj - (link.firstLever * wi + link.secondLever * wj).cross(n), spin = wi - wj;
+      const double carried = stiffnessWeight * (link.bond ? 1 : carriedOn_);
+      const auto weigh = [&](const Link::Spring& spring) { return carried * spring.stiffness + dampingWeight * spring.damping; };
       const double across = weigh(link.across), rolling = weigh(link.rolling);
-      const Vec3 force = (weigh(link.along) - across) * slip.dot(n) * n + across * slip;
+      const Vec3 force = (stiffnessWeight * link.along.stiffness + dampingWeight * link.along.damping - across) * slip.dot(n) * n + across * slip;
       const Vec3 moment = (weigh(link.twisting) - rolling) * spin.dot(n) * n + rolling * spin;
       const Vec3 couple = n.cross(force);
       result[i].head<3>() += mi * force;
@@ -209,7 +252,7 @@ class SpectralLimit {
   // Power iteration from the mode that there is, until its quotient stands still: x·K x and x·C x of a mode of length 1.
   ContactMode iterate(double stiffnessWeight, double dampingWeight) {
     double before = 0;
-    for (int n = 0; n < 3000; ++n) {
+    for (int n = 0; n < most_; ++n) {
       const double length = std::sqrt(dot(mode_, mode_));
       for (Motion6& m : mode_) m /= length;
       Motion next = apply(mode_, stiffnessWeight, dampingWeight);
@@ -217,7 +260,7 @@ class SpectralLimit {
       if (!(quotient > 0)) break;
       mode_.swap(next);
       if (n % 20 != 19) continue;
-      if (std::abs(quotient / before - 1) < 1e-6) break;
+      if (std::abs(quotient / before - 1) < precise_) break;
       before = quotient;
     }
     const double length = std::sqrt(dot(mode_, mode_));
@@ -228,6 +271,9 @@ class SpectralLimit {
   const ContactNetwork& network_;
   bool verlet_;
   Integrator integrator_;
+  int most_ = 3000;          // iterations
+  double precise_ = 1e-6;    // by which the quotient still changes in 20 of them
+  double carriedOn_ = 1;     // what springs across count for
   Motion mode_;
 };
 
@@ -252,10 +298,9 @@ void meetSingle(double mass, double stiffness, double damping, double& note, dou
 
 }  // namespace
 
-ContactNetwork networkOf(const Model& model, const Snapshot& snapshot, const Instant& instant) {
-  const std::size_t law = lawIndex(model.contact), n = model.materials.size();
-  const PairConstants constants = preparePairs(model, law);
-  const bool turns = grainsTurn(model);
+ContactNetwork networkOf(const Model& model, std::size_t law, const PairConstants& constants, bool turns, const Instant& instant,
+                         const std::vector<std::uint16_t>& material) {
+  const std::size_t n = model.materials.size();
   ContactNetwork network;
   for (const SeenGrain& grain : instant.grains) {
     network.inverseMass.push_back(1 / grain.mass);
@@ -268,9 +313,9 @@ ContactNetwork networkOf(const Model& model, const Snapshot& snapshot, const Ins
     const double distance = contact.branch.norm(), overlap = a.radius + (wall ? 0 : b.radius) - distance;
     const double inverseMass = network.inverseMass[i] + (wall ? 0 : network.inverseMass[j]);
     const double effectiveRadius = wall ? a.radius : 1 / (1 / a.radius + 1 / b.radius);
-    const std::size_t partner = wall ? model.walls[contact.wall()].material : snapshot.material[j];
+    const std::size_t partner = wall ? model.walls[contact.wall()].material : material[j];
     Link link = linkOf(
-        lawFunctions(law).modes(constants.of(snapshot.material[i] * n + partner), std::max(overlap, 0.0), effectiveRadius, inverseMass),
+        lawFunctions(law).modes(constants.of(material[i] * n + partner), std::max(overlap, 0.0), effectiveRadius, inverseMass),
         inverseMass, effectiveRadius);
     link.first = contact.first;
     link.second = wall ? -1 : contact.second;
@@ -280,6 +325,15 @@ ContactNetwork networkOf(const Model& model, const Snapshot& snapshot, const Ins
     network.links.push_back(link);
   }
   return network;
+}
+
+StepLimit longestStep(const ContactNetwork& network, Integrator integrator, StiffestMode& mode) {
+  const auto bonds = std::count_if(network.links.begin(), network.links.end(), [](const Link& link) { return link.bond; });
+  const auto contacts = static_cast<std::ptrdiff_t>(network.links.size()) - bonds;
+  std::string of;
+  if (contacts > 0) of = fmt::format("{} contact{}", contacts, contacts == 1 ? "" : "s");
+  if (bonds > 0) of += fmt::format("{}{} bond{}", of.empty() ? "" : " and ", bonds, bonds == 1 ? "" : "s");
+  return {SpectralLimit(network, integrator).findQuickly(mode), fmt::format("the stiffest mode of {}", of)};
 }
 
 StabilityLimits limitsOf(const ContactNetwork& network, const Model& model, const Snapshot& snapshot) {

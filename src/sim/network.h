@@ -1,7 +1,8 @@
 #pragma once
-// The contacts of an instant as a network of springs and dashpots, and how long a step it bears (docs/physics.md, S2, S6–S8).
+// The contacts and bonds of an instant as a network of springs and dashpots, and how long a step it bears (docs/physics.md, S2, S6–S9).
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/snapshot.h"
@@ -10,7 +11,7 @@
 
 namespace tsubu::sim {
 
-/// A contact, linearised: it sticks, and its stiffness is that of its present overlap.
+/// A contact, linearised: it sticks, and its stiffness is that of its present overlap. Or a bond.
 struct Link {
   std::int32_t first, second;      ///< grains by their place; second is −1 for a wall
   Vec3 normal;                     ///< from the second to the first
@@ -21,16 +22,34 @@ struct Link {
     double stiffness = 0, damping = 0;
   };
   Spring along, across, rolling, twisting;
+  bool bond = false;               ///< its springs go by the way of the grains, and are not carried on by half a step (B3)
 };
 
 struct ContactNetwork {
   std::vector<double> inverseMass;     ///< 1/kg, by grain
   std::vector<double> inverseInertia;  ///< 1/(kg m²); 0 where grains do not turn
   std::vector<Link> links;
+  double slowing = 0;                  ///< 1/s: what drag and damping add to 2ζω of any grain
 };
 
-/// `model`: as it was before the simulation; grains and contacts of the same instant, both in the order of ids.
-ContactNetwork networkOf(const Model& model, const Snapshot& snapshot, const Instant& instant);
+struct PairConstants;
+/// The contacts of an instant; `material` of its grains.
+ContactNetwork networkOf(const Model& model, std::size_t law, const PairConstants& constants, bool turns, const Instant& instant,
+                         const std::vector<std::uint16_t>& material);
+
+/// Where the search for the stiffest mode begins: at the last one found.
+struct StiffestMode {
+  std::vector<Eigen::Matrix<double, 6, 1>> shape;  ///< translation and rotation of each grain, scaled by the roots of mass and inertia
+};
+
+struct StepLimit {
+  double step;     ///< s; infinite where nothing swings
+  std::string by;
+};
+
+/// \brief S9: the longest step of the network by power iteration, for use while it runs: springs across are counted twice in velocity
+/// Verlet (their limit is √2/ω and not 2/ω), which is safe where S8 is exact, and cheap.
+StepLimit longestStep(const ContactNetwork& network, Integrator integrator, StiffestMode& mode);
 
 /// s, each infinite where it says nothing.
 struct StabilityLimits {

@@ -65,12 +65,13 @@ Ledger Simulation::Impl::ledgerNow() {
   // The accounts of this step run half a step beyond the present instant in velocity Verlet (memory lives at half steps).
   std::array<double, Accounts::kinds> step{};
   double work = 0;
+  const double lead = stepOf().lead;
   for (const Accounts& accounts : last)
     for (int k = 0; k < Accounts::overlap; ++k) step[static_cast<std::size_t>(k)] += accounts.sum(static_cast<Accounts::Kind>(k));
-  for (const SlabWalls& slab : walls.slabs()) work += slab.work - (1 - scheme.lead) * slab.lastWork;
+  for (const SlabWalls& slab : walls.slabs()) work += slab.work - (1 - lead) * slab.lastWork;
   const auto dissipated = [&](Accounts::Kind kind) {
     const auto k = static_cast<std::size_t>(kind);
-    return total[k] - (1 - scheme.lead) * step[k];
+    return total[k] - (1 - lead) * step[k];
   };
   ledger.elasticNormal = step[Accounts::storedNormal];
   ledger.elasticTangential = step[Accounts::storedTangential];

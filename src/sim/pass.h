@@ -25,6 +25,7 @@ namespace tsubu::sim {
 
 struct Counts;
 class WallPass;
+struct Link;
 
 /// The running simulation as a pass sees it: positions and velocities of the present instant (docs/physics.md, I1, I2).
 struct World {
@@ -39,6 +40,7 @@ struct World {
   double skin;   ///< m: two grains approach each other by less between one regroup() and the next
   double time;   ///< s
   StepOf step;
+  double way;    ///< s: the step that led here
   double share;  ///< s: the time that an evaluation stands for in accounts of energy: Δt, or less where a step has several
   std::function<double(std::int32_t, std::int32_t)> contactEnergy;  ///< J: in the contact of two grains, by place
 };
@@ -61,6 +63,8 @@ class ForcePass {
   virtual void account(const World&, Ledger&) const {}
   /// J: what goes when these grains (marked by their places) go, or has come with them.
   virtual double storedIn(const World&, const std::vector<char>& /*grains*/) const { return 0; }
+  /// Adds the springs of the present instant between grains, and between grains and walls, by place.
+  virtual void addLinks(const World&, std::vector<Link>&) const {}
   /// Counts what it has made and lost.
   virtual void count(Counts&) const {}
   /// Adds what is to be seen of it.

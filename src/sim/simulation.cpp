@@ -118,13 +118,15 @@ PassContext Simulation::Impl::context(PairClass pairClass, bool oneClass) {
 }
 
 StepOf Simulation::Impl::stepOf() const {
-  StepOf step{model.timeStep, scheme.lead};
+  const double dt = evaluationStep();
+  // Of a step that changes its length, what lies behind the present instant is half of the old one (I8).
+  StepOf step{dt, changing && scheme.ahead > 0 ? 0.5 * model.timeStep / dt : scheme.lead};
   if (rungeKutta) step.turning = step.mean = 0;
   return step;
 }
 
 World Simulation::Impl::world(double t, double share) {
-  return {model, state, slabs, pairs, periods, walls, team, gravity.now(), outerSkin, t, stepOf(), share,
+  return {model, state, slabs, pairs, periods, walls, team, gravity.now(), outerSkin, t, stepOf(), model.timeStep, share,
           [this](std::int32_t i, std::int32_t j) { return contactEnergyOf(static_cast<std::size_t>(i), static_cast<std::size_t>(j)); }};
 }
 
@@ -135,6 +137,7 @@ void Simulation::Impl::step() {
 
 void Simulation::Impl::computeForces(For whom) {
   if (forcesKnown) return;
+  if (nextTimeStep > 0) beginChange();
   changeGravity();
   const double wallStep = walls.moveTo(time(), model.timeStep);
   placeMovingWalls();
@@ -154,7 +157,7 @@ void Simulation::Impl::computeForces(For whom) {
   book(1);
   Profile::Lap lap(profile, ProfilePart::other);
   for (const auto& pass : passes) {
-    pass->addForces(world(time(), (rungeKutta ? RungeKutta::weight[0] : 1.0) * model.timeStep));
+    pass->addForces(world(time(), (rungeKutta ? RungeKutta::weight[0] : 1.0) * evaluationStep()));
     pass->count(counts);
   }
   loadMovingWalls();
@@ -234,8 +237,8 @@ void Simulation::Impl::loadMovingWalls() {
   const std::vector<WallLoad> loads = walls.loads();
   for (std::size_t w = 0; w < moving.size(); ++w) {
     MovingWall& wall = moving[w];
-    wall.feel(loads[w], gravity.now(), time(), model.timeStep, scheme);
-    const double limit = stableStep(wall, contactsOfMoving[w], model.integrator);
+    wall.feel(loads[w], gravity.now(), time(), evaluationStep(), scheme);
+    const double limit = sim::stableStep(wall, contactsOfMoving[w], model.integrator);
     if (warnedLightWall_ || !(model.timeStep > limit)) continue;
     warnedLightWall_ = true;
     complain(fmt::format("Wall '{}' is too light for {} contacts at once: its step would have to be below {:.4g} s, t = {:.6g} s.",
@@ -247,7 +250,7 @@ void Simulation::Impl::loadMovingWalls() {
 void Simulation::Impl::moveSlab(int slab, int thread) {
   const Profile::Lap lap(profile, ProfilePart::motion, thread);
   const bool turn = (steps + 1) % turnInterval == 0;
-  motions[static_cast<std::size_t>(slab)] = integrate(state, slabs.begin(slab), slabs.end(slab), gravity.now(), model.timeStep, turn);
+  motions[static_cast<std::size_t>(slab)] = integrate(state, slabs.begin(slab), slabs.end(slab), gravity.now(), kickStep(), turn);
 }
 
 Motion Simulation::Impl::moveBySlabs() {
@@ -290,9 +293,10 @@ void Simulation::Impl::move() {
   const Motion most = rungeKutta ? moveByStages() : moveBySlabs();
   for (std::size_t g = 0; g < state.temperature.size(); ++g) state.temperature[g] += state.warming[g];
   double wallStep = 0;
-  for (MovingWall& wall : moving) wallStep = std::max(wallStep, wall.move(model.timeStep, scheme));
+  for (MovingWall& wall : moving) wallStep = std::max(wallStep, wall.move(kickStep(), changing ? nextTimeStep : model.timeStep, scheme));
   wallTravel += wallStep;
   fastest = std::sqrt(most.fastest2);
+  if (changing) finishChange();
   innerTravel += fastest * model.timeStep;
   outerTravel += fastest * model.timeStep;
   ++steps;
@@ -440,6 +444,9 @@ void Simulation::advance(std::uint64_t steps) {
   for (std::uint64_t k = 0; k < steps; ++k) impl_->step();
 }
 
+void Simulation::setTimeStep(double dt) { impl_->setTimeStep(dt); }
+StepLimit Simulation::stableStep() { return impl_->stableStepNow(); }
+ContactNetwork Simulation::network() { return impl_->networkNow(); }
 double Simulation::time() const { return impl_->time(); }
 double Simulation::timeStep() const { return impl_->model.timeStep; }
 std::uint64_t Simulation::steps() const { return impl_->steps; }

@@ -10,6 +10,7 @@
 #include "sim/diagnostics/instant.h"
 #include "sim/ledger.h"
 #include "sim/model.h"
+#include "sim/network.h"
 #include "sim/profile.h"
 
 namespace tsubu::sim {
@@ -67,6 +68,9 @@ class Simulation {
 
   double time() const;
   double timeStep() const;
+  /// Steps have this length (s) from the second one on that is taken after this; the next one still has the old length, its forces being known.
+  /// Throws Error(scene) where the integrator has steps of one length only.
+  void setTimeStep(double dt);
   std::uint64_t steps() const;
   std::size_t grains() const;
   const Counts& counts() const;
@@ -81,6 +85,9 @@ class Simulation {
   void fill(Snapshot& snapshot);
   /// Grains and the forces of their contacts. Throws Error(simulation) unless the model has `contactForces`.
   Instant instant();
+  /// Contacts and bonds of the present instant as springs and dashpots, and the longest step that they bear (S8); need `contactForces`.
+  ContactNetwork network();
+  StepLimit stableStep();
   /// Hash over the grains in the order of their ids (position, velocity, orientation) and the contact memory; equal for equal bits.
   std::uint64_t stateHash();
 

@@ -10,6 +10,7 @@
 #include "sim/fields/gravity.h"
 #include "sim/integrate.h"
 #include "sim/kernel/kernels.h"
+#include "sim/network.h"
 #include "sim/neighbours/cell_grid.h"
 #include "sim/neighbours/pair_lists.h"
 #include "sim/neighbours/slabs.h"
@@ -33,7 +34,12 @@ class Simulation::Impl {
   /// The forces of the present instant, unless they are known. For an observer contacts are noted, if the model wants that.
   enum class For { step, observer };
   void computeForces(For whom = For::observer);
-  double time() const { return static_cast<double>(steps) * model.timeStep; }
+  double time() const { return since + static_cast<double>(steps - stepsSince) * model.timeStep; }
+  void setTimeStep(double dt);
+  /// By place: where a grain stands in the order of ids.
+  std::vector<std::int32_t> ranks() const;
+  ContactNetwork networkNow();
+  StepLimit stableStepNow();
 
   // Who comes and goes.
   void changePopulation();
@@ -80,6 +86,11 @@ class Simulation::Impl {
   bool rebuildNeeded = true;
 
   std::uint64_t steps = 0;
+  double since = 0;                         ///< s: steps have had this length from here on
+  std::uint64_t stepsSince = 0;
+  double nextTimeStep = 0;                  ///< s: asked for; 0: none
+  bool changing = false;                    ///< the present step goes over to it
+  StiffestMode stiffest;                    ///< of the network, as it was found last
   std::uint64_t grainSteps = 0;
   std::uint64_t stepsBetweenArrivals = 1;
   std::uint64_t turnInterval = turnEvery;   ///< steps between updates of the orientations; magnets need them all
@@ -111,6 +122,12 @@ class Simulation::Impl {
   void placeMovingWalls();
   void loadMovingWalls();
   void addGrain(const Grain& grain);
+
+  /// s: what the evaluation of the present forces stands for, and what they push for; the step, but for one that changes its length.
+  double evaluationStep() const;
+  double kickStep() const;
+  void beginChange();
+  void finishChange();
 
   /// Lists that hold for a step must hold at all its stages.
   double stageTravel() const { return rungeKutta ? fastest * model.timeStep : 0; }

@@ -27,6 +27,8 @@ namespace {
 // mode of a pressed closest packing, with friction and between walls, measures as that of 5.3 to 6 contacts in one direction
 // (tests/verification/stability_test.cpp).
 constexpr double mostNeighbours = 8;
+// S9: of a grain that the network does not know yet.
+constexpr double firstNeighbours = 2;
 
 // By material; infinite where there are no grains of it.
 std::vector<double> smallestRadii(const Model& model) {
@@ -38,10 +40,10 @@ std::vector<double> smallestRadii(const Model& model) {
 }
 
 // S4: a stiffness that depends on the overlap is taken at `expectedOverlap`.
-// S3: in a packing ω² and 2ζω are at most `mostNeighbours` times those of one contact. `rate`: what drag and damping add to 2ζω of a
+// S3: in a packing ω² and 2ζω are at most `neighbours` times those of one contact. `rate`: what drag and damping add to 2ζω of a
 // grain by itself.
-ContactMode inPacking(ContactMode contact, double rate) {
-  return {mostNeighbours * contact.stiffness, mostNeighbours * contact.damping + rate};
+ContactMode inPacking(ContactMode contact, double neighbours, double rate) {
+  return {neighbours * contact.stiffness, neighbours * contact.damping + rate};
 }
 
 // Explicit Euler: λ² − (2 − 2ζW) λ + (1 − 2ζW + W²); the product of the roots reaches 1 at W = 2ζ, the larger of two real ones −1 before.
@@ -109,8 +111,8 @@ void considerMagnets(const Model& model, TimeStepChoice& choice) {
 }
 
 // S5. Contacts that act beside the bonds of the same pairs add their share; otherwise a neighbour is either bonded or touched.
-void considerBonds(const Model& model, TimeStepChoice& choice) {
-  const BondSwing swing = swingOfBonds(model);
+void considerBonds(const Model& model, bool laterOnly, TimeStepChoice& choice) {
+  const BondSwing swing = swingOfBonds(model, laterOnly);
   if (!(swing.stiffness > 0)) return;
   double limit = stableStep({swing.stiffness, swing.damping}, model.integrator, true);
   bool both = false;
@@ -155,7 +157,9 @@ double stableStep(const MovingWall& wall, ContactMode contact, Integrator integr
   return stableStep({n * contact.stiffness * inverseMass, (n * contact.damping + wall.body().damping) * inverseMass}, integrator, true);
 }
 
-TimeStepChoice chooseTimeStep(const Model& model) {
+namespace {
+
+TimeStepChoice choose(const Model& model, double neighbours) {
   const std::size_t law = lawIndex(model.contact), n = model.materials.size();
   const std::vector<char> meet = pairsThatMeet(model);
   const PairConstants constants = preparePairs(model, law);
@@ -178,7 +182,7 @@ TimeStepChoice chooseTimeStep(const Model& model) {
                             const std::string& what) {
     const auto modes = lawFunctions(law).modes(constants.of(a * n + b), expectedOverlap * smallerRadius, effectiveRadius, inverseMasses);
     for (std::size_t mode = 0; mode < modes.size(); ++mode) {
-      const ContactMode packed = inPacking(modes[mode], rateOf(a, b, mode > 0));
+      const ContactMode packed = inPacking(modes[mode], neighbours, rateOf(a, b, mode > 0));
       if (packed.stiffness == 0 && packed.damping == 0) continue;
       const double limit = stableStep(packed, model.integrator, mode == 0);
       grows = grows || (model.integrator == Integrator::explicitEuler && stableEulerStep(packed) < limit);
@@ -205,7 +209,7 @@ TimeStepChoice chooseTimeStep(const Model& model) {
                 fmt::format("{} of {}, smallest grains", damping[a].fluid ? "drag" : "damping", model.materials[a].name),
                 {}};
   }
-  if (!model.bonds.empty()) considerBonds(model, choice);
+  if (!model.bonds.empty()) considerBonds(model, neighbours == firstNeighbours, choice);
   considerMagnets(model, choice);
   considerHeat(model, choice);
   if (!std::isfinite(choice.limit))
@@ -216,5 +220,10 @@ TimeStepChoice chooseTimeStep(const Model& model) {
         "step that is taken for the limit.";
   return choice;
 }
+
+}  // namespace
+
+TimeStepChoice chooseTimeStep(const Model& model) { return choose(model, mostNeighbours); }
+TimeStepChoice chooseStepForNewContacts(const Model& model) { return choose(model, firstNeighbours); }
 
 }  // namespace tsubu::sim

@@ -16,4 +16,7 @@ ContactMode stiffestContact(const Model& model, std::size_t law, std::size_t wal
 /// s: the longest stable step of a wall that moves under load, all its contacts pressing in one direction.
 double stableStep(const MovingWall& wall, ContactMode contact, Integrator integrator);
 
+/// Throws Error(scene) with an integrator whose steps all have one length.
+void checkChangingSteps(Integrator integrator);
+
 }  // namespace tsubu::sim

@@ -42,7 +42,9 @@ std::optional<std::vector<Snapshot>> instantsOf(sim::Model model, std::uint64_t 
 }  // namespace
 
 std::optional<std::vector<PictureQuality>> comparePictures(const Trial& trial, const Stop& stop) {
-  const scene::Scene scene = scene::read(trial.scene, trial.overrides);
+  scene::Overrides overrides = trial.overrides;
+  overrides.emplace_back("simulation.limit=packing");  // pictures are of three steps of one length
+  const scene::Scene scene = scene::read(trial.scene, overrides);
   scene::Built built = scene::build(scene);
   const auto seen = instantsOf(std::move(built.model), built.plan.steps, stop);
   if (!seen) return std::nullopt;

@@ -189,7 +189,9 @@ void bisect(const Trier& trier, const Stop& stop, Stability& found) {
 }  // namespace
 
 std::optional<Stability> findStability(const StabilityRequest& request, const Stop& stop) {
-  const scene::Scene scene = scene::read(request.scene, request.overrides);
+  scene::Overrides overrides = request.overrides;
+  overrides.emplace_back("simulation.limit=packing");  // one step on the way to the state that is tried
+  const scene::Scene scene = scene::read(request.scene, overrides);
   scene::Built built = scene::build(scene);
   const scene::FramePlan plan = built.plan;
   sim::Model running = built.model;
@@ -215,8 +217,8 @@ std::optional<Stability> findStability(const StabilityRequest& request, const St
   found.limitedBy = plan.limitedBy;
   if (!built.model.bonds.empty())
     found.notes.push_back(
-        "Bonds are made anew for the trial; predictions of the network are for contacts alone, the automatic one knows bonds.");
-  found.predicted = sim::limitsOf(sim::networkOf(built.model, snapshot, instant), built.model, snapshot);
+        "Bonds are made anew for the trial.");
+  found.predicted = sim::limitsOf(simulation.network(), built.model, snapshot);
   const double overlap = instant.contacts.empty() ? 1e-3 * snapshot.radius[0] : meanOverlap(instant);
   bisect(Trier(modelOf(built, snapshot), overlap, request.steps, stop), stop, found);
   if (stop && stop()) return std::nullopt;

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "scene/build.h"
+#include "scene/pace.h"
 
 namespace tsubu::study {
 
@@ -60,18 +60,15 @@ std::optional<Outcome> run(const Trial& trial, const Stop& stop, const Watch& wa
   try {
     simulation = std::make_unique<sim::Simulation>(std::move(built.model), 1);
     Observer observer(scene, observablesOf(scene));
+    scene::Pace pace(plan);
     for (;;) {
-      const std::uint64_t step = simulation->steps();
-      const bool last = step >= plan.steps;
-      if (step % plan.stepsPerLedgerRow == 0 || last) observer.add(*simulation);
-      if (last) break;
-      const std::uint64_t next = std::min((step / plan.stepsPerLedgerRow + 1) * plan.stepsPerLedgerRow, plan.steps);
-      while (simulation->steps() < next) {
+      if (pace.rowDue()) observer.add(*simulation);
+      if (pace.ended()) break;
+      do {
         if (stop && stop()) return std::nullopt;
-        if (watch && watch(static_cast<double>(simulation->steps()) / static_cast<double>(plan.steps), cpuTime() - start))
-          return std::nullopt;
-        simulation->advance(std::min(next - simulation->steps(), portion / grains + 1));
-      }
+        if (watch && watch(simulation->time() / (static_cast<double>(plan.steps) * plan.timeStep), cpuTime() - start)) return std::nullopt;
+        pace.advance(*simulation, portion / grains + 1);
+      } while (pace.underWay());
     }
     outcome.values = observer.results();
     outcome.stateHash = fmt::format("{:016x}", simulation->stateHash());

@@ -94,6 +94,37 @@ TEST(Stability, FrictionAndRolling) {
   }
 }
 
+// A row of grains that bonds join to each other: they shear, bend and twist as well as stretch.
+TEST(Stability, Bonds) {
+  const std::string text = R"(
+[simulation]
+end = 0.1
+gravity = [0, 0, 0]
+[contact]
+tangential = "none"
+[materials.ball]
+density = 1000
+[pairs]
+normal_stiffness = 1
+restitution = 1
+[grains.row]
+source = "list"
+radius = "1 cm"
+positions = [[0, 0, 0], [0.021, 0, 0], [0.042, 0, 0], [0.042, 0.021, 0], [0.042, 0.042, 0]]
+[bonds.glue]
+distance = 1.1
+stiffness = "1e8 N/m^3"
+stiffness_ratio = 1.5
+)";
+  for (const char* damping : {"", "damping = { kind = \"viscous\", ratio = 0.2 }\n"}) {
+    for (const char* integrator : {"velocity_verlet", "symplectic_euler"}) {
+      const Stability s = found(text + damping, {std::string("simulation.integrator=") + integrator});
+      EXPECT_NEAR(s.measured / s.predicted.spectral, 1, 0.03) << integrator << damping;
+      EXPECT_LT(s.automatic, s.measured);
+    }
+  }
+}
+
 // The rules for single contacts allow too much as soon as a grain has two neighbours; the duration of a contact does at once.
 TEST(Stability, RulesForOneContactAreTooLong) {
   const Stability one = found(chain(1, "tangential = \"none\"", "restitution = 1"));

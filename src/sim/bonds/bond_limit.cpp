@@ -54,7 +54,7 @@ Smallest smallestOf(const Model& model) {
 
 }  // namespace
 
-BondSwing swingOfBonds(const Model& model) {
+BondSwing swingOfBonds(const Model& model, bool laterOnly) {
   State state;
   for (const Grain& grain : model.grains) state.add(grain, model.materials[grain.material].values[Property::density], Vec3::Zero(), 0);
   const Periods periods(model.domain, model.periodic);
@@ -74,6 +74,7 @@ BondSwing swingOfBonds(const Model& model) {
   for (std::size_t k = 0; k < model.bonds.size(); ++k) {
     const Bonding& bonding = model.bonds[k];
     if (bonding.start == 0 && bonding.end <= bonding.start) {
+      if (laterOnly) continue;
       if (bonding.wall) {
         const Wall& wall = model.walls[*bonding.wall];
         for (const WallFoot& foot : bondableFeet(bonding, k, model.seed, grains, wall, wall.motion.at(0))) {

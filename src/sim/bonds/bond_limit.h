@@ -16,6 +16,7 @@ struct BondSwing {
 
 /// Bonds that are there from the start are looked for; for those that are made later, the smallest grains count with as many neighbours
 /// as have room.
-BondSwing swingOfBonds(const Model& model);
+/// `laterOnly`: the latter alone.
+BondSwing swingOfBonds(const Model& model, bool laterOnly = false);
 
 }  // namespace tsubu::sim

@@ -179,7 +179,7 @@ void BondPass::settle(const World& world, Kind& kind, BondColumns& all, WallBond
   std::stable_sort(wallOrder.begin(), wallOrder.end(), [&](std::size_t a, std::size_t b) { return walls.bonds.i[a] < walls.bonds.i[b]; });
   for (const std::size_t k : wallOrder) slabs[static_cast<std::size_t>(slabOf(world.slabs, walls.bonds.i[k]))].wall.take(walls, k);
   if (kind.bonding->wall) {
-    for (SlabBonds& slab : slabs) slab.wall.place(world.model.walls[*kind.bonding->wall].motion, world.state.rows, world.time, world.step.dt);
+    for (SlabBonds& slab : slabs) slab.wall.place(world.model.walls[*kind.bonding->wall].motion, world.state.rows, world.time, world.way);
     slabs.front().wall.work = walls.work;
   }
   kind.slabs = std::move(slabs);
@@ -203,7 +203,7 @@ void BondPass::addForces(const World& world) {
 
 void BondPass::evaluate(const World& world) {
   State& state = world.state;
-  const double dt = world.step.dt;
+  const double dt = world.way;
   stages_.resize(static_cast<std::size_t>(world.team.threads()));
   const BondRows grains{state.rows.data(), !state.half.empty() ? state.half.data() : nullptr, state.forces.data()};
   for (int parity = 0; parity < 2; ++parity) {
@@ -268,7 +268,7 @@ void BondPass::evaluateAcross(const World& world, Kind& kind, const BondRows& gr
     rows.back().x = x.x(), rows.back().y = x.y(), rows.back().z = x.z();
     if (!state.half.empty()) half.push_back(state.half[j]);
   }
-  kind.kernel(kind.constants, bonds, grains, {rows.data(), !state.half.empty() ? half.data() : nullptr, forces.data()}, world.step.dt, stages_.front(),
+  kind.kernel(kind.constants, bonds, grains, {rows.data(), !state.half.empty() ? half.data() : nullptr, forces.data()}, world.way, stages_.front(),
               kind.foundFar);
   std::swap(owners, bonds.j);
   for (std::size_t k = 0; k < bonds.size(); ++k) {
@@ -296,7 +296,7 @@ void BondPass::letGo(const World& world) {
       if (!slab.foundAtWall.broken.empty()) {
         letGo(world, kind, slab.wall.bonds, slab.wall.rows, slab.foundAtWall);
         slab.wall.drop(marks(slab.wall.bonds, slab.foundAtWall));
-        slab.wall.place(world.model.walls[*kind.bonding->wall].motion, world.state.rows, world.time, world.step.dt);
+        slab.wall.place(world.model.walls[*kind.bonding->wall].motion, world.state.rows, world.time, world.way);
       }
     }
     if (!kind.foundFar.broken.empty()) {
@@ -442,6 +442,35 @@ double BondPass::storedIn(const World& world, const std::vector<char>& grains) c
     if (grains[i] || (!wall && grains[j])) energy += sim::storedIn(world, kind.constants, bonds, k, world.state.rows[i], second[j]);
   });
   return energy;
+}
+
+// B2, B6. Dampers of B4 take a share of the force at most: they count as springs that are stiffer by it.
+void BondPass::addLinks(const World& world, std::vector<Link>& links) const {
+  visit(world.state, [&](const Kind& kind, const BondColumns& bonds, std::size_t k, const std::vector<GrainRow>& second, bool wall) {
+    const GrainRow &a = world.state.rows[static_cast<std::size_t>(bonds.i[k])], &b = second[static_cast<std::size_t>(bonds.j[k])];
+    const Vec3 branch = wall ? Vec3(positionOf(a) - positionOf(b)) : between(world, a, b);
+    const double length = branch.norm();
+    const BondBody body = bonds.body(k);
+    const BondKind& c = kind.constants;
+    const bool viscous = kind.bonding->damping == BondDamping::viscous, percent = kind.bonding->damping == BondDamping::percent;
+    const double normalK = body.stiffness * bondPi * body.radius * body.radius, bendK = 0.25 * normalK * body.radius * body.radius;
+    const auto spring = [&](BondWay way, double stiffness, double critical) {
+      return Link::Spring{stiffness * (percent ? 1 + c.eta[way] : 1), viscous ? c.eta[way] * critical : 0};
+    };
+    Link link{};
+    link.first = bonds.i[k];
+    link.second = wall ? -1 : bonds.j[k];
+    link.normal = branch / length;
+    link.firstLever = wall ? length : length * a.radius / (a.radius + b.radius);
+    link.secondLever = length - link.firstLever;
+    link.inverseMass = a.inverseMass + (wall ? 0 : b.inverseMass);
+    link.along = spring(along, normalK, body.critical);
+    link.across = spring(across, c.shearOverNormal * normalK, body.critical);
+    link.rolling = spring(bending, bendK, body.bendCritical);
+    link.twisting = spring(twisting, 2 * c.shearOverNormal * bendK, body.bendCritical);
+    link.bond = true;
+    links.push_back(link);
+  });
 }
 
 void BondPass::count(Counts& counts) const {

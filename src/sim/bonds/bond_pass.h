@@ -21,6 +21,7 @@ class BondPass : public ForcePass {
   void addForces(const World& world) override;
   void account(const World& world, Ledger& ledger) const override;
   double storedIn(const World& world, const std::vector<char>& grains) const override;
+  void addLinks(const World& world, std::vector<Link>& links) const override;
   void count(Counts& counts) const override;
   void show(const World& world, Snapshot& snapshot) const override;
   std::uint64_t hash(const State& state) const override;

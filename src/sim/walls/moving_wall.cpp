@@ -20,9 +20,9 @@ void MovingWall::feel(const WallLoad& load, const Vec3& gravity, double time, do
   dissipated_.add(body_.damping * seen_ * seen_ * dt);
 }
 
-double MovingWall::move(double dt, const Scheme& scheme) {
+double MovingWall::move(double kick, double dt, const Scheme& scheme) {
   const double old = speed_;
-  speed_ += dt * acceleration_;
+  speed_ += kick * acceleration_;
   const double goes = dt * (scheme.lead > 0 ? speed_ : old);  // explicit Euler goes by the old one
   way_ += goes;
   seen_ = speed_ + scheme.ahead * dt * acceleration_;

@@ -38,8 +38,8 @@ class MovingWall {
 
   /// The load of the present instant is known.
   void feel(const WallLoad& load, const Vec3& gravity, double time, double dt, const Scheme& scheme);
-  /// Takes a step; returns how far it goes, m.
-  double move(double dt, const Scheme& scheme);
+  /// Takes a step, pushed for `kick` seconds and going for `dt`; returns how far it goes, m.
+  double move(double kick, double dt, const Scheme& scheme);
 
   void account(double dt, const Scheme& scheme, const Vec3& gravity, Ledger& ledger) const;
 
