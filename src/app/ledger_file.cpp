@@ -79,8 +79,8 @@ void LedgerFile::add(sim::Simulation& simulation, bool ledger) {
   if (bonds_) row += fmt::format(",{},{}", counts.bonds, counts.broken);
   crossed_ = counts.crossed;
   lastTime_ = time;
-  if (ledger && rows_ > 0) worst_ = std::max(worst_, now.residualFraction());
-  ++rows_;
+  largestResidual_ = std::max(largestResidual_, std::abs(now.residual()));
+  turnover_ = now.turnover;
   fmt::print(file_, "{}\n", row);
   if (std::fflush(file_) != 0) throw Error(ErrorKind::files, fmt::format("Cannot write '{}': {}.", path_, std::strerror(errno)));
 }

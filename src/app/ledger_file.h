@@ -28,8 +28,8 @@ class LedgerFile {
 
   /// Appends the row of the present instant, complete on disk when this returns. Without a ledger in the scene its columns stay empty.
   void add(sim::Simulation& simulation, bool ledger);
-  /// The largest |residual| / turnover of any row but the first.
-  double worstResidual() const { return worst_; }
+  /// The largest |residual| of any row, over the turnover of the run so far: over its own turnover that of the first touch says nothing (E6).
+  double worstResidual() const { return turnover_ > 0 ? largestResidual_ / turnover_ : 0; }
 
  private:
   std::FILE* file_;
@@ -37,8 +37,7 @@ class LedgerFile {
   bool heat_, bonds_;
   std::vector<std::int64_t> crossed_;
   double lastTime_ = 0;
-  std::size_t rows_ = 0;
-  double worst_ = 0;
+  double largestResidual_ = 0, turnover_ = 0;  // J
 };
 
 }  // namespace tsubu::app

@@ -38,7 +38,7 @@ struct RunReport {
   std::vector<sim::LostGrain> lostGrains;
   bool ledger = true;
   double energyResidual = 0;       ///< at the end, as a fraction of the energy turned over
-  double worstEnergyResidual = 0;  ///< of any row of the ledger
+  double worstEnergyResidual = 0;  ///< the largest of any row of the ledger, over the turnover in the end
   std::vector<study::Measured> observables;  ///< what the scene names
   std::string stateHash;
   std::vector<std::pair<std::string, double>> profile;  ///< s of all threads together, by part; empty unless asked for

@@ -76,6 +76,8 @@ class Program(unittest.TestCase):
         for k, row in enumerate(rows):
             self.assertAlmostEqual(float(row["time_s"]), k / 50, places=9)
             self.assertNotIn(None, row.values())
+        turnover = abs(float(rows[-1]["residual_J"])) / float(rows[-1]["residual_fraction"])
+        self.assertAlmostEqual(report["worst_energy_residual"], max(abs(float(row["residual_J"])) for row in rows) / turnover, delta=1e-8)
         header = (self.out / "frames" / "000000.png").read_bytes()
         self.assertEqual(struct.unpack(">II", header[16:24]), (160, 96))
 

@@ -72,6 +72,33 @@ TEST(Restitution, ElasticCollisionKeepsItsEnergy) {
   EXPECT_NEAR(measuredRestitution(Integrator::symplecticEuler, false, 1, 3e-5, 2e-4, 0.3), 1, 1e-5);
 }
 
+// E6. In the first step of a contact, begun a time τ ago, the grains have fallen in by uτ; the force pushes for half a step, as the scheme has it,
+// where it should have risen in τ. What is left is ½ k u² τ(τ − Δt) + F²Δt²/8m*, of second order; over what has been turned over until then it
+// is all there is. A spring and a dashpot alike: what the dashpot takes is booked to the last bit.
+TEST(LinearContact, ResidualOfTheFirstTouchIsThatOfAHalfStep) {
+  for (const double e : {1.0, 0.3}) {
+    for (const double dt : {4e-6, 2e-6}) {
+      for (const double phase : {0.2, 0.5, 0.9}) {
+        const double mass = 3e-5, other = 5e-5, effective = mass * other / (mass + other), depth = phase * speed * dt;
+        Scenario s;
+        s.pair[Property::normalStiffness] = stiffness;
+        s.pair[Property::restitution] = e;
+        s.grain(mass, 1e-3, {2.5e-3 + 2 * speed * dt - depth, 0, 0}, {-speed, 0, 0});
+        s.grain(other, 1.5e-3, {0, 0, 0});
+        Simulation sim = s.start(dt);
+        sim.advance(2);
+        const double damping = 2 * dampingRatio(e, false) * std::sqrt(effective * stiffness);
+        const double force = stiffness * depth + damping * speed * (0.5 + phase);  // N5
+        const double expected = 0.5 * stiffness * depth * (depth - speed * dt) + force * force * dt * dt / (8 * effective);
+        EXPECT_NEAR(sim.ledger().residual(), expected, 1e-6 * std::abs(expected) + 1e-20);
+        if (e == 1) {
+          EXPECT_NEAR(sim.ledger().residualFraction(), 1, 1e-6);
+        }
+      }
+    }
+  }
+}
+
 // Note (B.5): x = (u/α) sin αt e^{−ηt/2m*} until t = π/α.
 TEST(LinearContact, FollowsTheDampedOscillator) {
   const double m1 = 3e-5, m2 = 1.1e-4, r1 = 1.3e-3, r2 = 2.2e-3, effective = m1 * m2 / (m1 + m2), e = 0.62;
