@@ -166,6 +166,7 @@ void Simulation::Impl::visitContacts(Visit&& visit) const {
     c.overlap = radiusSum - distance;
     c.separationSpeed = dv.dot(normal);
     c.effectiveMass = mass;
+    c.rootMass = std::sqrt(c.effectiveMass);
     c.inverseEffectiveMass = 1 / mass;
     c.effectiveRadius = radius;
     c.inverseSpinInertia = 5 / (mass * radius * radius);
@@ -219,6 +220,7 @@ double Simulation::Impl::contactEnergyOf(std::size_t i, std::size_t j) const {
   contact.n = {n.x(), n.y(), n.z()};
   contact.inverseEffectiveMass = a.inverseMass + b.inverseMass;
   contact.effectiveMass = 1 / contact.inverseEffectiveMass;
+  contact.rootMass = std::sqrt(contact.effectiveMass);
   contact.effectiveRadius = 1 / (a.inverseRadius + b.inverseRadius);
   contact.inverseSpinInertia = 5 / (contact.effectiveMass * contact.effectiveRadius * contact.effectiveRadius);
   double memory[mostMemory] = {};

@@ -96,7 +96,7 @@ void RungeKutta::countSprings(double share, const double* memory, std::size_t st
   Contact contact{};
   contact.n = {0, 0, 1};
   contact.overlap = larger(overlap, 0);
-  contact.effectiveMass = contact.inverseEffectiveMass = contact.inverseSpinInertia = 1;
+  contact.effectiveMass = contact.rootMass = contact.inverseEffectiveMass = contact.inverseSpinInertia = 1;
   contact.effectiveRadius = effectiveRadius;
   const StepOf step{model_.timeStep, 0};
   const double own = law_.stored(constants_.of(pair), contact, step, tangential),

@@ -181,6 +181,23 @@ void findSlip(int count, Stage& s) {
   }
 }
 
+/// √m* for the laws that read it. A loop of its own: roots that nothing waits for.
+void findRootMass(int count, Stage& s) {
+  TSUBU_INDEPENDENT
+  for (int q = 0; q < count; ++q) s.rootMass[q] = std::sqrt(s.effectiveMass[q]);
+}
+
+/// Carries the memory along (T3).
+template <class Law>
+void carryMemory(double turning, int count, Stage& s, double* const (&columns)[mostMemory]) {
+  TSUBU_INDEPENDENT
+  for (int q = 0; q < count; ++q) {
+    typename Law::Memory held = memoryFromColumns<Law>(columns, q);
+    Law::carry({s.dx[q], s.dy[q], s.dz[q]}, turning * s.frameSpin[q], held);
+    memoryToColumns<Law>(held, true, columns, q);
+  }
+}
+
 /// The law on every contact of the chunk. `memory` points to the columns of the contacts' memory.
 template <class Law, bool oneClass, bool accounts, bool weighted>
 void compute(const PassContext& context, int count, Stage& s, double* const* memory) {
@@ -191,9 +208,14 @@ void compute(const PassContext& context, int count, Stage& s, double* const* mem
     gatherConstants<Law>(context, count, s);
   findDirections<Law>(count, s);
   findSlip<Law, weighted>(count, s);
+  if (!oneClass || Law::Normal::readsRootMass(only.normal))
+    findRootMass(count, s);
+  else
+    std::fill_n(s.rootMass, count, 0.0);
   const StepOf step = context.step;
   double* columns[mostMemory];
   for (int k = 0; k < mostMemory; ++k) columns[k] = k < Law::stateSize ? memory[k] : nullptr;
+  if constexpr (Law::stateSize > 0) carryMemory<Law>(step.turning, count, s, columns);
   TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) {
     Contact c;
@@ -203,10 +225,10 @@ void compute(const PassContext& context, int count, Stage& s, double* const* mem
     c.separationSpeed = s.separationSpeed[q];
     c.effectiveMass = s.effectiveMass[q];
     c.inverseEffectiveMass = s.inverseMassSum[q];
+    c.rootMass = s.rootMass[q];
     if constexpr (Law::readsRadius) c.effectiveRadius = s.effectiveRadius[q];
     if constexpr (Law::turns) {
       c.slip = {s.dvx[q], s.dvy[q], s.dvz[q]};
-      c.frameAngle = step.turning * s.frameSpin[q];
     }
     if constexpr (Law::rolls) {
       c.relativeSpin = {s.rx[q], s.ry[q], s.rz[q]};

@@ -35,7 +35,7 @@ struct alignas(64) Stage {
   Column constants[mostConstants];
 
   // On the way.
-  Column overlap, effectiveMass, effectiveRadius;
+  Column overlap, effectiveMass, rootMass, effectiveRadius;
   Column separationSpeed, frameSpin;
   Column perRadiusSum, arm;  // 1/(r_i + r_j); distance over that sum, the share of its radius at which each grain is touched
 

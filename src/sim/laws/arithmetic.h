@@ -29,15 +29,17 @@ TSUBU_INLINE V3 select(bool which, V3 yes, V3 no) { return {which ? yes.x : no.x
 /// Smallest divisor: keeps 0/0 out of contacts that have no direction. Below any square of a force or length that matters.
 inline constexpr double tiny = 1e-200;
 
+/// limit/√square: the root and the division side by side, where one after the other would be twice as long to wait for.
+TSUBU_INLINE double shareOf(double limit, double square) { return limit * (std::sqrt(square) * (1 / larger(square, tiny))); }
+
 /// A vector that lives in the tangent plane of a contact (spring force, rolling moment), carried along while the contact turns:
-/// turned about n with a mean spin of the two bodies, laid into the present tangent plane, length unchanged. The length is brought
-/// back by the series of 1/√(1 + ε), off by 3e-13 where a contact turns by less than 0.01 rad in a step and never too long: a root
-/// less on the longest chain of the step.
+/// turned about n with a mean spin of the two bodies, laid into the present tangent plane, length unchanged. Before that it is too long
+/// by √(1 + ε), ε = φ² − (1 + φ²)(a·n)²/a². The series of 1/√(1 + ε) is off by 3e-13 where a contact turns by less than 0.01 rad in a
+/// step and never too long: a root less on the longest chain of the step.
 TSUBU_INLINE V3 carried(V3 a, V3 n, double frameAngle) {
-  const double perSquare = 1 / larger(norm2(a), tiny);
-  const V3 turned = a + frameAngle * cross(n, a);
-  const V3 laid = turned - dot(turned, n) * n;
-  const double e = smaller((norm2(laid) - norm2(a)) * perSquare, 1.0);
+  const double along = dot(a, n), angle2 = frameAngle * frameAngle;
+  const V3 laid = a + frameAngle * cross(n, a) - along * n;
+  const double e = smaller(angle2 - (1 + angle2) * (along * along * (1 / larger(norm2(a), tiny))), 1.0);
   return (1 + e * (-1.0 / 2 + e * (3.0 / 8 + e * (-5.0 / 16)))) * laid;
 }
 

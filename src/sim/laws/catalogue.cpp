@@ -51,6 +51,7 @@ struct AsFunctions {
   static ContactForce evaluate(const double* constants, const Contact& contact, StepOf step, double* memory, ContactEnergy& energy) {
     const Pair pair = fromDoubles<Pair>(constants);
     Memory held = fromDoubles<Memory>(memory);
+    Law::carry(contact.n, contact.frameAngle, held);
     const ContactForce force = Law::template evaluate<true>(pair, contact, step, held, energy);
     if constexpr (Law::stateSize > 0) std::memcpy(memory, &held, sizeof(Memory));
     return force;

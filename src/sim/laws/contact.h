@@ -15,6 +15,7 @@ struct Contact {
   V3 relativeSpin;           ///< ω_i − ω_j, rad/s; only set for laws that resist rolling
   double effectiveMass;      ///< m*, kg
   double inverseEffectiveMass; ///< 1/m*, 1/kg
+  double rootMass;           ///< √m*, √kg; 0 where the normal law does not read it
   double effectiveRadius;    ///< R*, m; only set for laws that read it
   double inverseSpinInertia; ///< 1/I_i + 1/I_j, 1/(kg m²); only set for laws that resist rolling
   double frameAngle;         ///< ω̄·n Δt, rad: how far the contact turns about n in a step, ω̄ a mean of ω_i and ω_j

@@ -61,6 +61,13 @@ struct ContactLaw {
     return {normal, T::prepare(values, constantStiffness, rescales), R::prepare(values), W::prepare(values)};
   }
 
+  /// Carries what is remembered along with the contact (T3): before `evaluate`.
+  TSUBU_LAW void carry(V3 n, double frameAngle, Memory& memory) {
+    memory.tangential.carry(n, frameAngle);
+    memory.rolling.carry(n, frameAngle);
+    memory.twisting.carry(n, frameAngle);
+  }
+
   /// `energy` is filled when asked for at compile time.
   template <bool withEnergy>
   TSUBU_LAW ContactForce evaluate(const Pair& p, const Contact& c, StepOf step, Memory& memory, ContactEnergy& energy) {

@@ -61,13 +61,13 @@ struct ElasticPlasticRolling {
     const double damping = larger(2 * p.dampingRatio * std::sqrt(inertia * k), k * quieting(k * c.inverseSpinInertia, step));
     const V3 rolling = c.relativeSpin - dot(c.relativeSpin, c.n) * c.n;
     const Eased ease = eased(memory, k, 1.0);
-    const V3 before = ease.factor * carried(memory.spring, c.n, c.frameAngle);
+    const V3 before = ease.factor * memory.spring;
     const V3 gain = (k * step.dt) * rolling;
     const V3 trial = before + step.lead * gain;
     const double limit = p.rollingFriction * c.effectiveRadius * std::abs(normal.force);
-    const double size = norm(trial);
-    const bool yields = size > limit;
-    const double keep = yields ? limit / larger(size, tiny) : 1.0;
+    const double size2 = norm2(trial);
+    const bool yields = size2 > limit * limit;
+    const double keep = yields ? shareOf(limit, size2) : 1.0;
     memory.spring = keep * (before + gain);
     setStiffness(memory, k);
     const double active = yields ? 0.0 : damping, storedAfter = 0.5 / larger(k, tiny) * norm2(memory.spring);

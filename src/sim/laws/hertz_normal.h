@@ -55,9 +55,11 @@ struct HertzNormal {
   static double stiffness(const Pair& p, double overlap, double effectiveRadius) { return p.twiceModulus * std::sqrt(effectiveRadius * overlap); }
   static double damping(const Pair& p, double effectiveMass, double stiffness) { return p.damping * std::sqrt(stiffness * effectiveMass); }
 
+  static bool readsRootMass(const Pair&) { return true; }
+
   TSUBU_LAW NormalForce force(const Pair& p, const Contact& c, StepOf) {
     const double stiffness = p.twiceModulus * std::sqrt(c.effectiveRadius * larger(c.overlap, 0.0));
-    const double perRoot = p.damping * std::sqrt(c.effectiveMass), damping = perRoot * std::sqrt(stiffness);
+    const double perRoot = p.damping * c.rootMass, damping = perRoot * std::sqrt(stiffness);
     const double elastic = (2.0 / 3.0) * stiffness * c.overlap;
     return {larger(elastic - damping * c.separationSpeed, p.least), elastic, 0.4 * elastic * c.overlap, stiffness, damping, perRoot};
   }

@@ -58,9 +58,10 @@ struct LinearNormal {
     return p.dampingPerRootMass * std::sqrt(effectiveMass) + p.dampingPerMass * effectiveMass;
   }
 
+  static bool readsRootMass(const Pair& p) { return p.dampingPerRootMass != 0; }
+
   TSUBU_LAW NormalForce force(const Pair& p, const Contact& c, StepOf step) {
-    double damping = p.dampingPerMass * c.effectiveMass;
-    if (p.dampingPerRootMass != 0) damping += p.dampingPerRootMass * std::sqrt(c.effectiveMass);
+    const double damping = p.dampingPerRootMass * c.rootMass + p.dampingPerMass * c.effectiveMass;
     const double elastic = p.stiffness * c.overlap;
     const double force = larger(elastic - damping * sampledSpeed(c, step), p.least);
     return {force, elastic, 0.5 * elastic * c.overlap, p.stiffness, damping, damping * p.perRootStiffness};

@@ -1,5 +1,6 @@
 #pragma once
-// What a contact may remember. A law names one of these; its doubles lie in the memory columns of the contact lists in this order.
+// What a contact may remember. A law names one of these; its doubles lie in the memory columns of the contact lists in this order. What
+// points along the contact is carried with it (T3) before a law sees it.
 
 #include <cstddef>
 #include <type_traits>
@@ -14,6 +15,7 @@ enum class Family { tangential, rolling, twisting };
 template <Family>
 struct NoMemory {
   static constexpr unsigned odd = 0;
+  TSUBU_INLINE void carry(V3, double) {}
   template <class F>
   TSUBU_INLINE void each(F&&) {}
 };
@@ -22,6 +24,7 @@ struct NoMemory {
 struct VectorMemory {
   static constexpr unsigned odd = 0b111;  ///< components that change sign when i and j change places
   V3 spring;
+  TSUBU_INLINE void carry(V3 n, double frameAngle) { spring = carried(spring, n, frameAngle); }
   template <class F>
   TSUBU_INLINE void each(F&& f) { f(spring.x), f(spring.y), f(spring.z); }
 };
@@ -31,6 +34,7 @@ struct GrowingVectorMemory {
   static constexpr unsigned odd = 0b0111;
   V3 spring;
   double stiffness;
+  TSUBU_INLINE void carry(V3 n, double frameAngle) { spring = carried(spring, n, frameAngle); }
   template <class F>
   TSUBU_INLINE void each(F&& f) { f(spring.x), f(spring.y), f(spring.z), f(stiffness); }
 };
@@ -39,6 +43,7 @@ struct GrowingVectorMemory {
 struct ScalarMemory {
   static constexpr unsigned odd = 0;
   double spring;
+  TSUBU_INLINE void carry(V3, double) {}
   template <class F>
   TSUBU_INLINE void each(F&& f) { f(spring); }
 };
@@ -46,6 +51,7 @@ struct GrowingScalarMemory {
   static constexpr unsigned odd = 0;
   double spring;
   double stiffness;
+  TSUBU_INLINE void carry(V3, double) {}
   template <class F>
   TSUBU_INLINE void each(F&& f) { f(spring), f(stiffness); }
 };

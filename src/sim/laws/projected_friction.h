@@ -51,7 +51,7 @@ struct ProjectedFriction {
   TSUBU_LAW double stored(const Pair&, const VectorMemory&) { return 0; }
 
   TSUBU_LAW TangentialForce force(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, VectorMemory& memory) {
-    const V3 before = carried(memory.spring, c.n, c.frameAngle);
+    const V3 before = memory.spring;
     const double speed = norm(c.slip), length = norm(before), gain = p.stiffness * step.dt * speed;
     const V3 along = speed > 0 ? (1 / larger(speed, tiny)) * c.slip : (1 / larger(length, tiny)) * before;
     const double damping = p.damping * normal.dampingPerRootStiffness + p.dampingPerMass * c.effectiveMass;

@@ -104,14 +104,13 @@ struct SpringLaw {
       own += p.damping * normal.dampingPerRootStiffness;
     }
     const double damping = larger(own, k * quieting(3.5 * k * c.inverseEffectiveMass, step));
-    const V3 before = ease * carried(memory.spring, c.n, c.frameAngle);
+    const V3 before = ease * memory.spring;
     if constexpr (!follows) storedBefore = half * norm2(before);
     const V3 gain = (k * step.dt) * c.slip;
     const V3 trial = limitsTheSpring ? before + step.lead * gain : before + step.lead * gain + damping * c.slip;
-    const double limit = p.friction * std::abs(normal.force);
-    const double size = norm(trial);
-    const bool slides = size > limit;
-    const double keep = slides ? limit / larger(size, tiny) : 1.0;
+    const double limit = p.friction * std::abs(normal.force), size2 = norm2(trial);
+    const bool slides = size2 > limit * limit;
+    const double keep = slides ? shareOf(limit, size2) : 1.0;
     const double drag = limitsTheSpring ? (slides ? 0 : damping) : keep * damping;
     const V3 force = limitsTheSpring ? -keep * trial - drag * c.slip : -keep * trial;
     if constexpr (sliding == SlidingSpring::getsTheRest) {

@@ -1,6 +1,7 @@
 #pragma once
 // Contacts, properties and small vector helpers for the tests of laws.
 
+#include <cmath>
 #include <array>
 #include <string>
 #include <vector>
@@ -49,6 +50,7 @@ inline Contact randomContact(Random& random) {
   c.slip = v3(tangentTo(n, randomVec(random, 0.1)));
   c.relativeSpin = v3(randomVec(random, 40));
   c.effectiveMass = random.uniform(1e-6, 1e-4);
+  c.rootMass = std::sqrt(c.effectiveMass);
   c.effectiveRadius = random.uniform(1e-3, 3e-3);
   c.inverseEffectiveMass = 1 / c.effectiveMass;
   c.inverseSpinInertia = 5 / (c.effectiveMass * c.effectiveRadius * c.effectiveRadius);

@@ -25,6 +25,7 @@ Contact headOn(double overlap, double separationSpeed, double effectiveMass, dou
   c.overlap = overlap;
   c.separationSpeed = separationSpeed;
   c.effectiveMass = effectiveMass;
+  c.rootMass = std::sqrt(c.effectiveMass);
   c.effectiveRadius = effectiveRadius;
   return c;
 }

@@ -123,6 +123,7 @@ TEST(LawContract, OtherUnitsGiveTheSameAnswer) {
       o.slip = (u.length / u.time) * c.slip;
       o.relativeSpin = (1 / u.time) * c.relativeSpin;
       o.effectiveMass *= u.mass;
+      o.rootMass = std::sqrt(o.effectiveMass);
       o.effectiveRadius *= u.length;
       o.inverseEffectiveMass /= u.mass;
       o.inverseSpinInertia /= u.mass * u.length * u.length;
@@ -278,6 +279,7 @@ TEST(LawContract, ClosedPathsNeverGainEnergy) {
             c.slip = {x.rate(t) / period, y.rate(t) / period, 0};
             c.relativeSpin = {turnX.rate(t) / period, turnY.rate(t) / period, 0};
             c.effectiveMass = 3e-5;
+            c.rootMass = std::sqrt(c.effectiveMass);
             c.inverseEffectiveMass = 1 / c.effectiveMass;
             c.effectiveRadius = 1e-3;
             c.inverseSpinInertia = 5 / (c.effectiveMass * 1e-6);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "sim/laws/contacts.h"
 
 namespace tsubu::sim {
@@ -15,6 +17,7 @@ Contact headOn(double overlap, double separationSpeed, double effectiveMass) {
   c.overlap = overlap;
   c.separationSpeed = separationSpeed;
   c.effectiveMass = effectiveMass;
+  c.rootMass = std::sqrt(c.effectiveMass);
   return c;
 }
 

@@ -25,6 +25,7 @@ Contact sliding(V3 slip) {
   c.n = {0, 0, 1};
   c.slip = slip;
   c.effectiveMass = 2e-5;
+  c.rootMass = std::sqrt(c.effectiveMass);
   c.inverseEffectiveMass = 5e4;
   return c;
 }

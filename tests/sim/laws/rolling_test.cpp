@@ -24,6 +24,7 @@ Contact rolling(V3 spin) {
   c.n = {0, 0, 1};
   c.relativeSpin = spin;
   c.effectiveMass = mass;
+  c.rootMass = std::sqrt(c.effectiveMass);
   c.effectiveRadius = radius;
   c.inverseSpinInertia = 1 / inertia;
   return c;

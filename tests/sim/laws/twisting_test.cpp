@@ -16,6 +16,7 @@ Contact twisting(V3 spin) {
   c.n = {0, 0.6, 0.8};
   c.relativeSpin = spin;
   c.effectiveMass = mass;
+  c.rootMass = std::sqrt(c.effectiveMass);
   c.effectiveRadius = radius;
   c.inverseSpinInertia = 1 / inertia;
   return c;
