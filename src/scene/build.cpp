@@ -349,6 +349,7 @@ Built build(const Scene& scene) {
   buildWalls(scene, built);
   buildMagnets(scene, built.model);
   sim::checkIntegrator(built.model);
+  sim::checkRotation(built.model);
   built.plan = planFrames(scene, built.model, expectedSpeed(built.model, built.bounds, scene.simulation.end), built.warnings);
   built.model.timeStep = built.plan.timeStep;
   built.style = buildStyle(scene);

@@ -99,6 +99,17 @@ void checkContact(const Scene& scene, const PositionOf& positionOf, Findings& fi
     for (const Diagnostic& what : error.diagnostics())
       findings.errors.push_back({positionOf({"contact"}), what.message, what.hint});
   }
+  if (!scene.contact.rotation) {
+    const auto refuse = [&](const char* key, const char* what, std::string hint) {
+      findings.errors.push_back({positionOf({"contact", key}), fmt::format("Rotation is switched off, and {}.", what), std::move(hint)});
+    };
+    if (scene.contact.rolling != "none") refuse("rolling", "rolling resistance is about nothing else", "rolling = \"none\"");
+    if (scene.contact.twisting != "none") refuse("twisting", "twisting resistance is about nothing else", "twisting = \"none\"");
+    if (!scene.bonds.empty()) refuse("rotation", "bonds bend and twist", "leave rotation out");
+    for (const GrainSource& source : scene.grains)
+      if (!source.spin.isZero())
+        findings.warnings.push_back({positionOf({"grains", source.name, "spin"}), "Rotation is switched off: nobody reads the spin.", {}});
+  }
   for (const sim::Reading& reading : sim::readings(scene.contact)) checkNeed(scene, reading, positionOf, findings);
   checkTable(scene, scene.pairs.all, sim::Scope::pair, {"pairs"}, positionOf, findings);
   for (const Pair& pair : scene.pairs.special)

@@ -65,6 +65,7 @@ void describeContact(Form& form, sim::ContactChoice& choice) {
     if (index != noneOfThem) name = choices[index].word;
   }
   form.boolean({"tension", "May the normal force pull at the end of a contact, as a plain dashpot does?"}, choice.tension);
+  form.boolean({"rotation", "Do grains turn, where friction would turn them? Held, they slide and stick and do not roll: to see what rotation is worth."}, choice.rotation);
   form.boolean({"rescale", "Does a Mindlin spring relax when its stiffness falls? Without, it creates energy (for comparison)."}, choice.rescale);
 }
 

@@ -47,7 +47,7 @@ void startHalfSteps(State& state, std::uint32_t firstId, const Vec3& gravity, do
     GrainRow& row = state.rows[k];
     // Where contacts see half-step velocities, gravity has been taken back already (State::add).
     const Acceleration a = accelerationOf(row, state.forces[k], verlet ? v3(gravity) : V3{0, 0, 0});
-    const V3 u = row.velocity() - (0.5 * dt) * a.linear, w = row.surfaceSpin() - (0.5 * dt) * a.surface;
+    const V3 u = row.velocity() - (0.5 * dt) * a.linear, w = state.turns ? row.surfaceSpin() - (0.5 * dt) * a.surface : row.surfaceSpin();
     if (verlet) {
       state.half[k] = {u.x, u.y, u.z, 0, w.x, w.y, w.z, 0};
       continue;
@@ -69,7 +69,7 @@ Velocities velocitiesNow(const State& state, std::size_t grain, const Vec3& grav
   if (schemeOf(state.integrator).behind > 0) {
     const Acceleration a = accelerationOf(row, state.forces[grain], v3(gravity));
     v = v + (0.5 * dt) * a.linear;
-    s = s + (0.5 * dt) * a.surface;
+    if (state.turns) s = s + (0.5 * dt) * a.surface;
   }
   return {Vec3(v.x, v.y, v.z), Vec3(s.x, s.y, s.z)};
 }

@@ -30,6 +30,7 @@ struct ContactChoice {
   bool tension = false;  ///< may the normal force pull at the end of a contact?
   std::string twisting = "none";
   bool rescale = true;   ///< T8: does a Mindlin spring relax with its stiffness? Without, it creates energy (for comparison)
+  bool rotation = true;  ///< do grains with friction turn? Held, they slide and stick, and nothing rolls
 
   bool operator==(const ContactChoice&) const = default;
 };

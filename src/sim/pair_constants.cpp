@@ -64,7 +64,10 @@ PairConstants preparePairs(const Model& model, std::size_t law) {
   for (std::size_t a = 0; a < n; ++a) {
     for (std::size_t b = 0; b < n; ++b) {
       if (!meet[a * n + b]) continue;
-      const PairValues values{model.pairs.at(a, b), model.materials[a].values, model.materials[b].values};
+      PropertyValues pair = model.pairs.at(a, b);
+      // T4: what slips without turning has all of m*, and not 2/7 of it.
+      if (!model.contact.rotation && !pair.has(Property::tangentialDampingFactor)) pair[Property::tangentialDampingFactor] = 1;
+      const PairValues values{pair, model.materials[a].values, model.materials[b].values};
       checkNeeds(model, a, b, values);
       functions.prepare(values, model.contact.tension, model.contact.rescale, constants.values.data() + (a * n + b) * constants.size);
     }

@@ -11,7 +11,19 @@
 
 namespace tsubu::sim {
 
-bool grainsTurn(const Model& model) { return lawFunctions(lawIndex(model.contact)).traits.turns || !model.bonds.empty() || hasPermanentMagnets(model); }
+bool grainsTurn(const Model& model) {
+  if (!model.contact.rotation) return false;
+  return lawFunctions(lawIndex(model.contact)).traits.turns || !model.bonds.empty() || hasPermanentMagnets(model);
+}
+
+void checkRotation(const Model& model) {
+  if (model.contact.rotation) return;
+  const auto refuse = [](const char* what, const char* hint) { throw Error(ErrorKind::scene, fmt::format("Rotation is switched off, and {}.", what), hint); };
+  if (model.contact.rolling != "none") refuse("rolling resistance is about nothing else", "rolling = \"none\"");
+  if (model.contact.twisting != "none") refuse("twisting resistance is about nothing else", "twisting = \"none\"");
+  if (!model.bonds.empty()) refuse("bonds bend and twist", "leave rotation out");
+  if (hasPermanentMagnets(model)) refuse("lasting magnets turn", "leave rotation out");
+}
 
 std::vector<std::unique_ptr<ForcePass>> makePasses(const Model& model) {
   const bool turns = grainsTurn(model);

@@ -73,8 +73,11 @@ class ForcePass {
   virtual std::uint64_t hash(const State&) const { return 0; }
 };
 
-/// Do grains turn? Without friction only magnets ask for it.
+/// Do grains turn? Without friction only bonds and lasting magnets ask for it.
 bool grainsTurn(const Model& model);
+
+/// Throws Error(scene) when grains are held from turning and something of the model is about turning.
+void checkRotation(const Model& model);
 
 /// Throws Error(scene) when the integrator cannot do what the model asks for.
 void checkIntegrator(const Model& model);

@@ -25,7 +25,7 @@ Plan Simulation::plan(const Model& model) {
   const bool rolls = model.contact.rolling != "none", twists = model.contact.twisting != "none";
   item(rolls, rolls ? fmt::format("rolling resistance: {}", model.contact.rolling) : "rolling resistance");
   item(twists, twists ? fmt::format("twisting resistance: {}", model.contact.twisting) : "twisting resistance");
-  item(grainsTurn(model), "rotation and orientation");
+  item(grainsTurn(model), traits.turns && !model.contact.rotation ? "rotation (held)" : "rotation and orientation");
   item(!model.bonds.empty(), "bonds");
   item(strongestGravity(model.gravity, model.fields.gravity) > 0, model.fields.gravity.empty() ? "gravity" : "gravity that changes");
   item(model.fields.drag.has_value(), "drag");

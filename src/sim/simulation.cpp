@@ -40,6 +40,7 @@ Simulation::Impl::Impl(Model given, int threads)
       passes(makePasses(model)),
       stages(static_cast<std::size_t>(threads)) {
   checkIntegrator(model);
+  checkRotation(model);
   prepareLaws();
   for (const MovingWall& wall : moving) contactsOfMoving.push_back(stiffestContact(model, law, wall.wall()));
   checkPeriods(model);

@@ -180,7 +180,8 @@ TimeStepChoice choose(const Model& model, double neighbours) {
   };
   const auto consider = [&](std::size_t a, std::size_t b, double inverseMasses, double effectiveRadius, double smallerRadius,
                             const std::string& what) {
-    const auto modes = lawFunctions(law).modes(constants.of(a * n + b), expectedOverlap * smallerRadius, effectiveRadius, inverseMasses);
+    auto modes = lawFunctions(law).modes(constants.of(a * n + b), expectedOverlap * smallerRadius, effectiveRadius, inverseMasses);
+    if (!model.contact.rotation) modes[1] = {modes[1].stiffness / 3.5, modes[1].damping / 3.5};  // a sphere that turns slips with 2/7 of its mass
     for (std::size_t mode = 0; mode < modes.size(); ++mode) {
       const ContactMode packed = inPacking(modes[mode], neighbours, rateOf(a, b, mode > 0));
       if (packed.stiffness == 0 && packed.damping == 0) continue;

@@ -202,6 +202,7 @@ scene::Overrides overridesOf(const Setting& setting, const scene::Scene& scene) 
   if (setting.tangential == "viscous" && !scene.pairs.all[sim::Property::tangentialDampingRate])
     writer.set({"pairs", std::string(sim::infoOf(sim::Property::tangentialDampingRate).key)}, 1e9);
   if (setting.tension) writer.set({"contact", "tension"}, *setting.tension ? "true" : "false");
+  if (setting.rotation) writer.set({"contact", "rotation"}, *setting.rotation ? "true" : "false");
   if (setting.coarsening != 1) writer.coarsen(setting.coarsening);
   if (setting.softening * writer.stiffness != 1) writer.scaleStiffness(setting.softening * writer.stiffness);
   if (setting.skin) writer.set({"simulation", "skin"}, *setting.skin * setting.coarsening * smallestRadius(scene));
@@ -222,6 +223,7 @@ std::string labelOf(const Setting& s) {
   if (s.rolling && !(s.tangential == "none")) add(*s.rolling == "none" ? "no rolling resistance" : *s.rolling + " rolling");
   if (s.twisting && !(s.tangential == "none")) add(*s.twisting == "none" ? "no twisting resistance" : *s.twisting + " twisting");
   if (s.tension) add(*s.tension ? "tension" : "no tension");
+  if (s.rotation) add(*s.rotation ? "rotation" : "no rotation");
   if (s.skin) add(fmt::format("skin {:.3g} r", *s.skin));
   if (s.equalGrains) add("equal grains");
   return label;
@@ -281,8 +283,15 @@ std::vector<Feature> featuresOf(const scene::Scene& scene) {
   features.push_back({"twisting resistance", twisting, unless(contact.twisting != "none", "it")});
   memory.tangential = "viscous";
   features.push_back({"memory of contacts", memory, unless(rubs && contact.tangential != "viscous", "any")});
-  features.push_back(
-      {"rotation", {}, rubs ? "with friction grains turn, and without they do not: see friction" : "the scene does not model it"});
+  // Without rotation nothing rolls or twists, and what resists that goes with it.
+  Setting held;
+  held.rotation = false;
+  if (contact.rolling != "none") held.rolling = "none";
+  if (contact.twisting != "none") held.twisting = "none";
+  const bool lasting = scene.magnets && std::any_of(scene.materials.begin(), scene.materials.end(), [](const scene::Material& m) {
+    return m.properties[sim::Property::magnetisation].has_value();
+  });
+  features.push_back({"rotation", held, !scene.bonds.empty() ? "bonds bend and twist" : lasting ? "lasting magnets turn" : unless(rubs && contact.rotation, "it")});
   tension.tension = !contact.tension;
   features.push_back({contact.tension ? "tension" : "one-sided contacts", tension, {}});
   equal.equalGrains = true;
@@ -300,6 +309,7 @@ Setting combined(const Setting& first, const Setting& second) {
   if (second.rolling) both.rolling = second.rolling;
   if (second.twisting) both.twisting = second.twisting;
   if (second.tension) both.tension = second.tension;
+  if (second.rotation) both.rotation = second.rotation;
   if (second.skin) both.skin = second.skin;
   both.softening *= second.softening;
   both.coarsening *= second.coarsening;

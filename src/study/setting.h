@@ -15,7 +15,7 @@ struct Setting {
   std::optional<double> timeStep;  ///< s: instead
   std::optional<std::string> integrator;
   std::optional<std::string> normal, tangential, rolling, twisting;  ///< laws
-  std::optional<bool> tension;
+  std::optional<bool> tension, rotation;
   double softening = 1;        ///< factor on the stiffness of all contacts
   double coarsening = 1;       ///< factor on the radii, with f⁻³ times as many grains
   std::optional<double> skin;  ///< in smallest radii

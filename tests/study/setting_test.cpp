@@ -1,5 +1,6 @@
 #include "study/setting.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -102,6 +103,16 @@ TEST(Setting, FeaturesThatAreNotThereAreNotSwitchedOff) {
     const bool there = feature.name == "one-sided contacts" || feature.name == "tension" || feature.name == "sizes of grains";
     EXPECT_EQ(feature.impossible.empty(), there) << feature.name;
   }
+}
+
+TEST(Setting, RotationGoesWithWhatResistsIt) {
+  const scene::Scene scene = scene::readText(heap, "scene.toml");
+  const std::vector<Feature> features = featuresOf(scene);
+  const auto rotation = std::find_if(features.begin(), features.end(), [](const Feature& f) { return f.name == "rotation"; });
+  ASSERT_NE(rotation, features.end());
+  EXPECT_TRUE(rotation->impossible.empty()) << rotation->impossible;
+  const scene::Overrides overrides = overridesOf(rotation->without, scene);
+  EXPECT_FALSE(scene::readText(heap, "scene.toml", overrides).contact.rotation);
 }
 
 TEST(Setting, CombinesFactors) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "verification/models.h"
 
 namespace tsubu::sim::test {
@@ -212,6 +213,71 @@ TEST(Oblique, EnergyNeverGrows) {
       EXPECT_GE(after.dissipatedTangential, -1e-12 * before) << n;
     }
   }
+}
+
+/// A sphere on an incline that is held from turning.
+Scenario onIncline(Integrator integrator, double angle, double mu) {
+  Scenario s = frictional(mu, 0.3);
+  s.model.contact.rotation = false;
+  s.model.integrator = integrator;
+  const double g = 9.81;
+  s.model.gravity = {g * std::sin(angle), 0, -g * std::cos(angle)};
+  s.model.domain = Box(Vec3::Constant(-1), Vec3::Constant(1));
+  s.grain(mass, radius, {0, 0, radius - mass * g * std::cos(angle) / k}, {0, 0, 0}, {30, 40, 50});
+  s.plane({0, 0, 0}, {0, 0, 1});
+  return s;
+}
+
+// A block: a = g (sin α − μ cos α) above the angle of friction, at rest below it.
+TEST(Held, SlidesAsABlockAndSticks) {
+  for (const Integrator integrator : {Integrator::symplecticEuler, Integrator::velocityVerlet, Integrator::leapfrog, Integrator::rungeKutta}) {
+    for (const double mu : {0.2, 0.5}) {
+      const double g = 9.81, angle = std::atan(mu) + 0.15;
+      Simulation sim = onIncline(integrator, angle, mu).start(5e-6);
+      sim.advance(4000);
+      const double expected = g * (std::sin(angle) - mu * std::cos(angle)) * sim.time();
+      // Friction builds up while the spring is drawn: a time of √(m/k_t).
+      EXPECT_NEAR(look(sim).velocity[0].x(), expected, 5e-3 * expected) << schemeOf(integrator).name;
+      const Ledger ledger = sim.ledger();
+      Simulation finer = onIncline(integrator, angle, mu).start(1.25e-6);
+      finer.advance(16000);
+      const bool secondOrder = integrator == Integrator::velocityVerlet || integrator == Integrator::rungeKutta;
+      EXPECT_LT(ledger.residualFraction(), secondOrder ? 5e-3 : 6e-2) << schemeOf(integrator).name;
+      EXPECT_LT(finer.ledger().residualFraction(), (secondOrder ? 0.12 : 0.3) * ledger.residualFraction() + 1e-6) << schemeOf(integrator).name;
+      EXPECT_EQ(ledger.kineticRotation, 0);
+      EXPECT_TRUE(look(sim).angularVelocity.empty());
+
+      Simulation still = onIncline(integrator, std::atan(mu) - 0.05, mu).start(5e-6);
+      still.advance(8000);
+      EXPECT_LT(look(still).velocity[0].norm(), 1e-4) << schemeOf(integrator).name;
+      EXPECT_LT(std::abs(look(still).position[0].x()), 3 * mass * g / kt);
+      EXPECT_LT(still.ledger().residualFraction(), 2e-2);
+    }
+  }
+}
+
+// A sticking contact without dashpot swings with k_t/m*, and not with 7/2 of it.
+TEST(Held, SwingsWithAllOfItsMass) {
+  Scenario s = frictional(1e9, 1);
+  s.model.contact.rotation = false;
+  const double vt = 0.02, dt = 1e-7;
+  s.model.contact.tension = true;
+  s.grain(mass, radius, {0, 0, 0}, {vt, 0, 0});
+  s.plane({0, 0, -0.99 * radius}, {0, 0, 1});
+  s.plane({0, 0, 0.99 * radius}, {0, 0, -1});
+  Simulation sim = s.start(dt);
+  const double omega = std::sqrt(2 * kt / mass);
+  sim.advance(static_cast<std::uint64_t>(std::llround(pi / omega / dt)));
+  EXPECT_NEAR(look(sim).velocity[0].x(), -vt, 2e-2 * vt);
+}
+
+TEST(Held, IsRefusedWhereTurningIsWhatItIsAbout) {
+  Scenario s = frictional(0.5, 0.5);
+  s.model.contact.rotation = false;
+  s.model.contact.rolling = "constant";
+  s.pair[Property::rollingFriction] = 0.1;
+  s.grain(mass, radius, {0, 0, 0});
+  EXPECT_THROW(s.start(1e-6), Error);
 }
 
 }  // namespace
