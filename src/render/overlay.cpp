@@ -63,17 +63,27 @@ void drawLegend(Image& image, const Legend& legend, const Pen& pen, const Layout
 
   const double above = bar.y - 0.8 * layout.text;
   const std::string name = legend.unit.empty() ? legend.quantity : fmt::format("{} [{}]", legend.quantity, legend.unit);
-  write(image, pen, name, bar.x, above, layout.text);
+  // Of a tall picture the bar is narrow: a name that is longer begins before it.
+  const double nameAt = std::min<double>(bar.x, image.width - layout.margin - textWidth(name, layout.text));
+  write(image, pen, name, nameAt, above, layout.text);
   if (!legend.fixed) {
     const std::string_view warning = "range of this frame";
     const double x = bar.x + bar.width - textWidth(warning, layout.small);
-    const bool collides = x < bar.x + textWidth(name, layout.text) + layout.text;
+    const bool collides = x < nameAt + textWidth(name, layout.text) + layout.text;
     write(image, pen, warning, x, collides ? above - 1.8 * layout.text : above, layout.small);
   }
 
   const double low = legend.range.low / legend.scale, high = legend.range.high / legend.scale;
-  const std::vector<double> ticks = roundTicks(low, high, image.width < 480 ? 3 : 6);
-  const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : high - low;
+  std::vector<double> ticks;
+  double step = high - low;
+  // As many as have room for their numbers.
+  for (int most = image.width < 480 ? 3 : 6; most > 1; --most) {
+    ticks = roundTicks(low, high, most);
+    if (ticks.size() < 2) break;
+    step = ticks[1] - ticks[0];
+    const double widest = std::max(textWidth(tickText(ticks.front(), step), layout.small), textWidth(tickText(ticks.back(), step), layout.small));
+    if (widest + 0.5 * layout.small < step / (high - low) * bar.width) break;
+  }
   const int notch = std::max(2, bar.height / 3);
   for (const double tick : ticks) {
     const double x = bar.x + (tick - low) / (high - low) * bar.width;

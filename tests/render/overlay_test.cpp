@@ -74,6 +74,26 @@ TEST(Legend, LiesWithinThePicture) {
   }
 }
 
+// A name that is longer than the bar of a tall picture does not run out of it.
+TEST(Legend, NameEndsWithinTheMargin) {
+  Style style = speedStyle(240, 400);
+  style.grains.by = ColourBy::angularVelocity;
+  style.grains.range = Range{0, 1};
+  const Image with = Renderer(style, {}).draw({});
+  style.overlay.legend = false;
+  const Image without = Renderer(style, {}).draw({});
+  const BarPlace bar = legendBar(240, 400);
+  int before = 0;
+  for (int y = 0; y < bar.y - 2; ++y) {
+    for (int x = 0; x < 240; ++x) {
+      if (std::equal(with.pixel(x, y), with.pixel(x, y) + 3, without.pixel(x, y))) continue;
+      EXPECT_LT(x, 230);
+      before += x < bar.x - 3;
+    }
+  }
+  EXPECT_GT(before, 10) << "the name is longer than the bar";
+}
+
 TEST(Legend, SaysWhenItsRangeIsThatOfOneFrame) {
   Snapshot snapshot;
   addGrain(snapshot, Vec3::Zero(), 0.1);
