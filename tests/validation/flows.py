@@ -2,7 +2,7 @@
 """Flows of granular matter, measured with the program itself: flows.py TSUBU [TEST…]. docs/validation.md has the table.
 
 Small scenes of soft grains, about a minute of one core each at most. Every test prints what it measured. With TSUBU_VALIDATION_PICTURES=DIR
-the last instant of each scene is drawn into DIR.
+the last instant of each scene is drawn into DIR; TSUBU_VALIDATION_SEED=N (1 unless given) places the grains otherwise.
 """
 import math
 import os
@@ -17,6 +17,7 @@ import bulk
 from bulk import PI, band, line, ring, table, write_obj
 
 PICTURES = os.environ.get("TSUBU_VALIDATION_PICTURES")
+SEED = int(os.environ.get("TSUBU_VALIDATION_SEED", "1"))
 G = 9.81
 D = 0.006  # m: mean diameter of all grains here; radii are uniform within 7 % of it
 MEAN_VOLUME = 4 / 3 * PI * (0.0028**2 + 0.0032**2) * (0.0028 + 0.0032) / 4
@@ -58,8 +59,8 @@ by = "speed"
 UNIFORM = 'radius = { min = "2.8 mm", max = "3.2 mm" }\nmaterial = "bead"\n'
 
 
-def head(end, domain, seed=1, gx=0.0, gz=-G, e=0.5, mu=0.5, mu_r=0.0):
-    return HEAD.format(end=end, seed=seed, gx=gx, gz=gz, domain=domain, rolling="elastic_plastic" if mu_r else "none", e=e, mu=mu,
+def head(end, domain, gx=0.0, gz=-G, e=0.5, mu=0.5, mu_r=0.0):
+    return HEAD.format(end=end, seed=SEED, gx=gx, gz=gz, domain=domain, rolling="elastic_plastic" if mu_r else "none", e=e, mu=mu,
                        rolling_friction=f"rolling_friction = {mu_r}" if mu_r else "")
 
 
@@ -218,12 +219,12 @@ grid = {{ box = {{ min = [{-half}, {-half}, -0.001], max = [{half}, {half}, 0.5]
 
     # Angle of repose --------------------------------------------------------------------------------------------------------------------
 
-    def repose(self, name, mu, mu_r, e, seed=1):
+    def repose(self, name, mu, mu_r, e):
         """Degrees: slope that stays when one side of a box is taken away, its standard error, and the largest speed of a cell left, m/s."""
         length, height, width, opens, end = 32 * D, 22 * D, 8 * D, 0.3, 2.0
         domain = f'{{ min = [-0.1, 0, -0.2], max = [0.6, {width}, 1], periodic = ["y"] }}'
         columns = 32
-        text = head(end, domain, seed, e=e, mu=mu, mu_r=mu_r) + f"""
+        text = head(end, domain, e=e, mu=mu, mu_r=mu_r) + f"""
 [grains.bed]
 source = "packing"
 box = {{ min = [0, 0, 0], max = [{length}, {width}, {height * 1.15}] }}
