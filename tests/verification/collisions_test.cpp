@@ -1,6 +1,6 @@
 // One collision of Hertz and Mindlin, at parameters drawn at random: unequal spheres of unequal materials, oblique and spinning, and a sphere on
 // the face, edge and corner of a cube that stands or moves. The answer is known from an integration that shares no line with the program:
-// the equations N6–N8, T0–T4, T7 and T8 of docs/physics.md in steps fifty times finer.
+// the equations N6–N8, T0–T4, T7, T8 and R3–R5 of docs/physics.md in steps fifty times finer.
 
 #include <functional>
 #include <optional>
@@ -19,7 +19,7 @@ struct Ball {
   Vec3 x, v, w;
 };
 struct Pair {
-  double restitution, friction;
+  double restitution, friction, rolling;  // 0: free
   bool tension;
 };
 /// What a ball meets: another ball, or the nearest point of a body that cannot be moved.
@@ -33,7 +33,9 @@ void integrate(Ball& a, Ball& b, const Nearest& nearest, const Pair& pair, doubl
   const double E = 1 / ((1 - a.poisson * a.poisson) / a.young + (1 - b.poisson * b.poisson) / b.young);
   const double G = 1 / ((2 - a.poisson) / shear(a) + (2 - b.poisson) / shear(b));
   const double zeta = dampingRatio(pair.restitution, pair.tension);
-  Vec3 spring = Vec3::Zero(), before = Vec3::Zero();  // on a
+  const double inertiaA = 0.4 * a.mass * a.radius * a.radius, inertiaB = 0.4 * b.mass * b.radius * b.radius;
+  const double rollingInertia = 3.5 / (1 / inertiaA + (nearest ? 0 : 1 / inertiaB));
+  Vec3 spring = Vec3::Zero(), moment = Vec3::Zero(), before = Vec3::Zero();  // on a
   double stiffnessBefore = 0;
   for (double t = 0; t < span; t += dt) {
     const Vec3 other = nearest ? nearest(a.x) : b.x;
@@ -51,8 +53,10 @@ void integrate(Ball& a, Ball& b, const Nearest& nearest, const Pair& pair, doubl
       const double k = 4 * G / E * S;
       if (stiffnessBefore > 0) {
         const Vec3 mean = nearest ? Vec3(0.5 * a.w) : Vec3((a.radius * a.w + b.radius * b.w) / (a.radius + b.radius));
-        spring = Eigen::AngleAxisd(mean.dot(n) * dt, n) * (Eigen::Quaterniond::FromTwoVectors(before, n) * spring);
-        if (k < stiffnessBefore) spring *= k / stiffnessBefore;
+        const double eased = std::min(1.0, k / stiffnessBefore);
+        const Eigen::Quaterniond turn = Eigen::AngleAxisd(mean.dot(n) * dt, n) * Eigen::Quaterniond::FromTwoVectors(before, n);
+        spring = eased * (turn * spring);
+        moment = eased * (turn * moment);
       }
       spring -= k * dt * slip;
       const Vec3 trial = spring - std::sqrt(2.0 / 7) * eta * std::sqrt(k / S) * slip;
@@ -61,15 +65,23 @@ void integrate(Ball& a, Ball& b, const Nearest& nearest, const Pair& pair, doubl
       before = n;
       stiffnessBefore = k;
 
+      const Vec3 spin = a.w - (nearest ? Vec3(Vec3::Zero()) : b.w), roll = spin - spin.dot(n) * n;
+      const double stiff = 2.25 * S * std::pow(pair.rolling * radius, 2), most = pair.rolling * radius * std::abs(normal);
+      moment -= stiff * dt * roll;
+      const bool yields = moment.norm() > most;
+      if (yields) moment *= most / std::max(moment.norm(), 1e-300);
+      const Vec3 resistance = yields ? moment : Vec3(moment - 0.6 * std::sqrt(rollingInertia * stiff) * roll);
+
       const Vec3 force = normal * n + keep * trial, couple = n.cross(keep * trial);
       a.v += dt / a.mass * force;
-      a.w -= dt * armA / (0.4 * a.mass * a.radius * a.radius) * couple;
+      a.w += dt / inertiaA * (resistance - armA * couple);
       if (!nearest) {
         b.v -= dt / b.mass * force;
-        b.w -= dt * armB / (0.4 * b.mass * b.radius * b.radius) * couple;
+        b.w += dt / inertiaB * (-resistance - armB * couple);
       }
     } else {
       spring.setZero();
+      moment.setZero();
       stiffnessBefore = 0;
     }
     a.x += dt * a.v;
@@ -95,7 +107,9 @@ Ball someBall(Random& random) {
   return ball;
 }
 
-Pair somePair(Random& random, int n) { return {random.uniform(0.2, 1), 0.05 * std::pow(30.0, random.uniform()), n % 2 == 0}; }
+Pair somePair(Random& random, int n) {
+  return {random.uniform(0.2, 1), 0.05 * std::pow(30.0, random.uniform()), n % 4 < 2 ? 0.0 : random.uniform(0.02, 0.5), n % 2 == 0};
+}
 
 /// Hertz: 2.8683 (m*²/(R* E*² v))^{1/5}.
 double duration(const Ball& a, const Ball& b, bool wall, double speed) {
@@ -106,10 +120,11 @@ double duration(const Ball& a, const Ball& b, bool wall, double speed) {
 
 struct Scene : Scenario {
   Scene(const Pair& values) {
-    model.contact = {"hertz", "mindlin", "none", values.tension};
+    model.contact = {"hertz", "mindlin", values.rolling > 0 ? "elastic_plastic" : "none", values.tension};
     model.domain = Box(Vec3::Constant(-1), Vec3::Constant(1));
     pair[Property::restitution] = values.restitution;
     pair[Property::friction] = values.friction;
+    pair[Property::rollingFriction] = values.rolling;
   }
   void ball(const Ball& ball, const Vec3& drift = Vec3::Zero()) {
     grain(ball.mass, ball.radius, ball.x, ball.v + drift, ball.w);
