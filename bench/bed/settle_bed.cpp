@@ -1,4 +1,6 @@
-// Makes the bed of bench/peers: 30,420 spheres of 2 mm that fell into a box and came to rest.  settle_bed BED.csv [THREADS]
+// Makes the grains that bench/peers starts from.
+//   settle_bed BED.csv [THREADS]          30,420 spheres of 2 mm that fell into a box and came to rest
+//   settle_bed BED.csv THREADS SCENE      the grains of any scene, as they are at its end
 // Deterministic: the same bytes on every machine, with any number of threads.
 
 #include <fmt/format.h>
@@ -11,6 +13,8 @@
 #include <memory>
 
 #include "core/random.h"
+#include "scene/build.h"
+#include "scene/reader.h"
 #include "sim/simulation.h"
 
 namespace {
@@ -87,13 +91,22 @@ void write(const Snapshot& bed, const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2 || argc > 3) {
-    std::cerr << "usage: settle_bed BED.csv [THREADS]\n";
+  if (argc < 2 || argc > 4) {
+    std::cerr << "usage: settle_bed BED.csv [THREADS [SCENE]]\n";
     return 2;
   }
   try {
-    sim::Simulation simulation(looseBed(), argc == 3 ? std::atoi(argv[2]) : 1);
-    simulation.advance(steps);
+    sim::Model model;
+    std::uint64_t count = steps;
+    if (argc == 4) {
+      scene::Built built = scene::build(scene::read(argv[3], {}, nullptr));
+      model = std::move(built.model);
+      count = built.plan.steps;
+    } else {
+      model = looseBed();
+    }
+    sim::Simulation simulation(std::move(model), argc >= 3 ? std::atoi(argv[2]) : 1);
+    simulation.advance(count);
     Snapshot bed;
     simulation.fill(bed);
     write(bed, argv[1]);

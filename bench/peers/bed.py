@@ -1,11 +1,13 @@
-"""The bed as every code wants it: reads a LAMMPS data file or tsubu's CSV of grains, and writes the inputs of all codes.
+"""The work as every code wants it: reads a LAMMPS data file or tsubu's CSV of grains, and writes the inputs of all codes.
 
 All codes start from the same positions and velocities, with empty contact memory, and compute the same thing: a linear
-spring-dashpot, or Hertz and Mindlin, with Coulomb friction and tangential memory, in five plane walls, under gravity tilted by thirty
-degrees. The box is square; a bed may be laid out in tiles, box beside box without the walls between.
+spring-dashpot, or Hertz and Mindlin, with Coulomb friction and tangential memory or without, between planes and perhaps a mesh.
+The bed is a square box of five planes, under gravity tilted by thirty degrees; it may be laid out in tiles, box beside box without
+the walls between.
 """
 import csv
 import gzip
+import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -31,20 +33,43 @@ class Grain:
     spin: tuple
 
 
-@dataclass
+@dataclass(frozen=True)
+class Plane:
+    name: str
+    axis: str
+    at: float
+    inward: int  # +1: grains are on the side of larger coordinates
+
+
+def box(side):
+    return (Plane("floor", "z", 0.0, 1), Plane("left", "x", 0.0, 1), Plane("right", "x", side, -1), Plane("front", "y", 0.0, 1),
+            Plane("back", "y", side, -1))
+
+
+@dataclass(frozen=True)
 class Work:
-    """What is done with the bed."""
+    """What is done with some grains."""
+    name: str
     steps: int
     law: str = "linear"  # or "hertz"
-    tiles: int = 1  # along x and along y
+    friction: bool = True
+    time_step: float = TIME_STEP
+    planes: tuple = box(SIDE)
+    mesh: Path | None = None  # an STL beside the planes
+    gravity: tuple = GRAVITY_DIRECTION
 
-    @property
-    def side(self):
-        return SIDE * self.tiles
+    def limits(self, grains):
+        """The corners of a box that nothing leaves; planes end it."""
+        margin, sides = 0.0005, []
+        for k, axis in enumerate("xyz"):
+            at = {plane.inward: plane.at for plane in self.planes if plane.axis == axis}
+            low, high = min(g.position[k] for g in grains), max(g.position[k] for g in grains)
+            sides.append((at[1] - margin if 1 in at else low - 0.1, at[-1] + margin if -1 in at else high + 0.1))
+        return sides
 
 
-def lay_out(grains, tiles):
-    return [Grain(g.radius, (g.position[0] + SIDE * i, g.position[1] + SIDE * j, g.position[2]), g.velocity, g.spin)
+def lay_out(grains, tiles, side=SIDE):
+    return [Grain(g.radius, (g.position[0] + side * i, g.position[1] + side * j, g.position[2]), g.velocity, g.spin)
             for i in range(tiles) for j in range(tiles) for g in grains]
 
 
@@ -85,13 +110,11 @@ def read_lammps(file):
     return grains
 
 
-def write_data(path, grains, title, sphere_style, side=SIDE):
+def write_data(path, grains, title, sphere_style, limits):
     """A data file of LAMMPS (`sphere_style`) or LIGGGHTS: they differ in what follows the word 'Atoms'."""
-    margin = 0.0005
-    top = max(g.position[2] for g in grains) + 0.1
     with open(path, "w", encoding="utf-8") as file:
         file.write(f"{title}\n\n{len(grains)} atoms\n1 atom types\n\n")
-        file.write(f"{-margin} {side + margin} xlo xhi\n{-margin} {side + margin} ylo yhi\n-0.001 {top:.3f} zlo zhi\n\n")
+        file.write("".join(f"{low!r} {high!r} {axis}lo {axis}hi\n" for axis, (low, high) in zip("xyz", limits)) + "\n")
         file.write("Atoms # sphere\n\n" if sphere_style else "Atoms\n\n")
         for number, g in enumerate(grains, 1):
             file.write(f"{number} 1 {2 * g.radius!r} {DENSITY} " + " ".join(map(repr, g.position)) + "\n")
@@ -107,9 +130,24 @@ def write_csv(path, grains):
             file.write(",".join(map(repr, g.position + (g.radius,) + g.velocity + g.spin)) + "\n")
 
 
+def skin(grains, share):
+    """How much farther than contact neighbours are listed, as a share of the smallest radius."""
+    return share * min(g.radius for g in grains)
+
+
 def write_lammps(directory, grains, work):
-    write_data(directory / "bed.lammps.data", grains, "bed for LAMMPS", True, work.side)
-    law = f"{NORMAL_STIFFNESS} {TANGENTIAL_STIFFNESS} {NORMAL_DAMPING_RATE} {TANGENTIAL_DAMPING_RATE} {FRICTION} 1"
+    """A peer without Hertz and Mindlin as tsubu has them, and without meshes."""
+    write_data(directory / "bed.lammps.data", grains, work.name, True, work.limits(grains))
+    model = "hooke/history" if work.friction else "hooke"
+    values = (NORMAL_STIFFNESS, TANGENTIAL_STIFFNESS, NORMAL_DAMPING_RATE, TANGENTIAL_DAMPING_RATE, FRICTION, 1)
+    if not work.friction:
+        values = (NORMAL_STIFFNESS, 0, NORMAL_DAMPING_RATE, 0, 0, 0)
+    law = " ".join(map(str, values))
+    walls = ""
+    for axis in "zxy":  # one fix for two walls that face each other
+        at = {plane.inward: plane.at for plane in work.planes if plane.axis == axis}
+        if at:
+            walls += f"fix sides_{axis} all wall/gran {model} {law} {axis}plane {at.get(1, 'NULL')} {at.get(-1, 'NULL')}\n"
     (directory / "in.lammps").write_text(f"""\
 units si
 atom_style sphere
@@ -117,17 +155,14 @@ boundary f f f
 processors * * 1
 newton off
 comm_modify vel yes
-neighbor 0.0004 bin
+neighbor {skin(grains, 0.4):g} bin
 neigh_modify delay 0 every 1 check yes
 read_data bed.lammps.data
-pair_style gran/hooke/history {law}
+pair_style gran/{model} {law}
 pair_coeff * *
-fix gravity all gravity {GRAVITY} vector {" ".join(map(str, GRAVITY_DIRECTION))}
+fix gravity all gravity {GRAVITY} vector {" ".join(map(str, work.gravity))}
 fix motion all nve/sphere
-fix floor all wall/gran hooke/history {law} zplane 0.0 NULL
-fix sides_x all wall/gran hooke/history {law} xplane 0.0 {work.side}
-fix sides_y all wall/gran hooke/history {law} yplane 0.0 {work.side}
-timestep {TIME_STEP}
+{walls}timestep {work.time_step}
 thermo_style custom step atoms ke
 thermo_modify format float %.10g
 thermo {OUTPUT_EVERY}
@@ -136,26 +171,34 @@ run {work.steps}
 
 
 LIGGGHTS = {
-    "linear": ("hooke/stiffness tangential history",
+    "linear": ("hooke/stiffness",
                {"kn": NORMAL_STIFFNESS, "kt": TANGENTIAL_STIFFNESS, "gamman": NORMAL_DAMPING_RATE, "gammat": TANGENTIAL_DAMPING_RATE,
                 "coefficientFriction": FRICTION}),
-    "hertz": ("hertz tangential history",
+    "hertz": ("hertz",
               {"youngsModulus": YOUNG, "poissonsRatio": POISSON, "coefficientRestitution": RESTITUTION, "coefficientFriction": FRICTION}),
 }
 
 
-def liggghts_property(name, value):
-    kind = "peratomtype" if name in ("youngsModulus", "poissonsRatio") else "peratomtypepair 1"
-    return f"fix {name} all property/global {name} {kind} {value}\n"
+def liggghts_properties(**values):
+    material = ("youngsModulus", "poissonsRatio")
+    return "".join(f"fix {name} all property/global {name} {'peratomtype' if name in material else 'peratomtypepair 1'} {value}\n"
+                   for name, value in values.items())
+
+
+def place_mesh(directory, work):
+    """Codes look for the mesh beside their input."""
+    if work.mesh and work.mesh.parent != directory:
+        shutil.copy(work.mesh, directory)
 
 
 def write_liggghts(directory, grains, work):
-    write_data(directory / "bed.liggghts.data", grains, "bed for LIGGGHTS", False, work.side)
-    model, values = LIGGGHTS[work.law]
-    walls = "".join(f"fix wall_{name} all wall/gran model {model} primitive type 1 {plane}\n"
-                    for name, plane in [("z", "zplane 0.0"), ("x1", "xplane 0.0"), ("x2", f"xplane {work.side}"),
-                                        ("y1", "yplane 0.0"), ("y2", f"yplane {work.side}")])
-    properties = "".join(liggghts_property(name, value) for name, value in values.items())
+    place_mesh(directory, work)
+    write_data(directory / "bed.liggghts.data", grains, work.name, False, work.limits(grains))
+    normal, values = LIGGGHTS[work.law]
+    model = f"{normal} tangential {'history' if work.friction else 'off'}"
+    walls = "".join(f"fix wall_{plane.name} all wall/gran model {model} primitive type 1 {plane.axis}plane {plane.at}\n" for plane in work.planes)
+    if work.mesh:
+        walls += f"fix mesh all mesh/surface file {work.mesh.name} type 1\nfix wall_mesh all wall/gran model {model} mesh n_meshes 1 meshes mesh\n"
     (directory / "in.liggghts").write_text(f"""\
 atom_style granular
 atom_modify map array
@@ -164,13 +207,13 @@ newton off
 communicate single vel yes
 units si
 processors * * 1
-neighbor 0.0002 bin
+neighbor {skin(grains, 0.2):g} bin
 neigh_modify delay 0
 read_data bed.liggghts.data
-{properties}pair_style gran model {model}
+{liggghts_properties(**values)}pair_style gran model {model}
 pair_coeff * *
-timestep {TIME_STEP}
-fix gravity all gravity {GRAVITY} vector {" ".join(map(str, GRAVITY_DIRECTION))}
+timestep {work.time_step}
+fix gravity all gravity {GRAVITY} vector {" ".join(map(str, work.gravity))}
 {walls}fix motion all nve/sphere
 thermo_style custom step atoms ke
 thermo_modify format float %.10g
@@ -180,61 +223,57 @@ run {work.steps}
 
 
 TSUBU = {
-    "linear": f"""[contact]
-tension = true
-
-[materials.glass]
-density = {DENSITY}
-
-[pairs]
-normal_stiffness = {NORMAL_STIFFNESS}
-tangential_stiffness = {TANGENTIAL_STIFFNESS}
-normal_damping_rate = {NORMAL_DAMPING_RATE}
-tangential_damping_rate = {TANGENTIAL_DAMPING_RATE}
-friction = {FRICTION}
-""",
-    "hertz": f"""[contact]
-normal = "hertz"
-tangential = "mindlin"
-tension = true
-
-[materials.glass]
-density = {DENSITY}
-young_modulus = {YOUNG}
-poisson_ratio = {POISSON}
-
-[pairs]
-restitution = {RESTITUTION}
-friction = {FRICTION}
-tangential_damping_factor = 1.0
-""",
+    "linear": (f"normal_stiffness = {NORMAL_STIFFNESS}\nnormal_damping_rate = {NORMAL_DAMPING_RATE}\n",
+               f"tangential_stiffness = {TANGENTIAL_STIFFNESS}\ntangential_damping_rate = {TANGENTIAL_DAMPING_RATE}\nfriction = {FRICTION}\n"),
+    "hertz": (f"restitution = {RESTITUTION}\n", f"friction = {FRICTION}\ntangential_damping_factor = 1.0\n"),
 }
 
 
-def write_tsubu(directory, grains, work):
-    write_csv(directory / "bed.grains.csv", grains)
-    length = sum(component**2 for component in GRAVITY_DIRECTION) ** 0.5
-    gravity = [GRAVITY * component / length for component in GRAVITY_DIRECTION]
-    walls = "".join(f"[walls.{name}]\nplane = {{ point = {point}, normal = {normal} }}\n"
-                    for name, point, normal in [("floor", [0, 0, 0], [0, 0, 1]),
-                                                ("left", [0, 0, 0], [1, 0, 0]), ("right", [work.side, 0, 0], [-1, 0, 0]),
-                                                ("front", [0, 0, 0], [0, 1, 0]), ("back", [0, work.side, 0], [0, -1, 0])])
+def contact_tables(law, friction=True):
+    """The laws of a scene and their constants."""
+    normal, tangential = TSUBU[law]
+    name = {"linear": "spring", "hertz": "mindlin"}[law] if friction else "none"
+    elastic = f"young_modulus = {YOUNG}\npoisson_ratio = {POISSON}\n" if law == "hertz" else ""
+    return (f'[contact]\nnormal = "{law}"\ntangential = "{name}"\ntension = true\n\n[materials.glass]\ndensity = {DENSITY}\n{elastic}\n'
+            f"[pairs]\n{normal}{tangential if friction else ''}")
+
+
+def wall_tables(work):
+    text = ""
+    for plane in work.planes:
+        point = [plane.at if axis == plane.axis else 0 for axis in "xyz"]
+        normal = [plane.inward if axis == plane.axis else 0 for axis in "xyz"]
+        text += f"[walls.{plane.name}]\nplane = {{ point = {point}, normal = {normal} }}\n"
+    return text + (f'[walls.mesh]\nmesh = "{work.mesh.name}"\n' if work.mesh else "")
+
+
+def gravity(work):
+    length = sum(component**2 for component in work.gravity) ** 0.5 or 1
+    return [GRAVITY * component / length for component in work.gravity]
+
+
+FROM_FILE = '[grains.bed]\nsource = "file"\nfile = "bed.grains.csv"\n'
+
+
+def write_tsubu(directory, grains, work, sources=FROM_FILE):
+    """Also for scenes that make grains: `sources` then says how, and `grains` is empty."""
+    place_mesh(directory, work)
+    if grains:
+        write_csv(directory / "bed.grains.csv", grains)
     (directory / "bed.toml").write_text(f"""\
-title = "A settled bed in a box that tilts by thirty degrees"
+title = "{work.name}"
 
 [simulation]
-end = {work.steps * TIME_STEP!r}
-gravity = {gravity}
+end = {work.steps * work.time_step!r}
+gravity = {gravity(work)}
 integrator = "symplectic_euler"
-time_step = {TIME_STEP}
+time_step = {work.time_step}
+overlap_limit = 0.3
 ledger = false
 
-{TSUBU[work.law]}
-[grains.bed]
-source = "file"
-file = "bed.grains.csv"
-
-{walls}
+{contact_tables(work.law, work.friction)}
+{sources}
+{wall_tables(work)}
 [output]
-frame_interval = {OUTPUT_EVERY * TIME_STEP!r}
+frame_interval = {OUTPUT_EVERY * work.time_step!r}
 """)

@@ -25,6 +25,7 @@ YOUNG, POISSON, FRICTION, RESTITUTION, ROLLING = 5e7, 0.3, 0.4, 0.7, 0.05
 STIFFNESS, TANGENTIAL = 4000.0, 1200.0
 DAMPING_RATE, TANGENTIAL_DAMPING_RATE = 900.0, 500.0
 AIM = 2e-4
+WORK = bed.Work("crowd", STEPS)
 
 
 @dataclass
@@ -83,10 +84,7 @@ rolling_friction = {ROLLING}
 """
 
 
-def properties(**values):
-    material = ("youngsModulus", "poissonsRatio")
-    return "".join(f"fix {name} all property/global {name} {'peratomtype' if name in material else 'peratomtypepair 1'} {value}\n"
-                   for name, value in values.items())
+properties = bed.liggghts_properties
 
 
 def hertz_properties(friction=FRICTION):
@@ -168,14 +166,10 @@ def crowd():
     return grains
 
 
-def planes():
-    return [("z", "zplane 0.0"), ("x1", "xplane 0.0"), ("x2", f"xplane {bed.SIDE}"), ("y1", "yplane 0.0"), ("y2", f"yplane {bed.SIDE}")]
-
-
 def liggghts(case, folder, grains):
     model, fixes = case.liggghts
-    bed.write_data(folder / "crowd.data", grains, "crowd", False)
-    walls = "".join(f"fix wall_{name} all wall/gran model {model} primitive type 1 {plane}\n" for name, plane in planes())
+    bed.write_data(folder / "crowd.data", grains, "crowd", False, WORK.limits(grains))
+    walls = "".join(f"fix wall_{plane.name} all wall/gran model {model} primitive type 1 {plane.axis}plane {plane.at}\n" for plane in WORK.planes)
     (folder / "in.case").write_text(f"""\
 atom_style granular
 atom_modify map array
@@ -200,9 +194,9 @@ run {STEPS}
 
 
 def lammps(case, folder, grains):
-    bed.write_data(folder / "crowd.data", grains, "crowd", True)
-    walls = "".join(f"fix wall_{name} all wall/gran granular {case.lammps[1]} {plane.replace(' 0.0', ' 0.0 NULL') if plane.endswith(' 0.0') else plane.replace(' ', ' NULL ')}\n"
-                    for name, plane in planes())
+    bed.write_data(folder / "crowd.data", grains, "crowd", True, WORK.limits(grains))
+    walls = "".join(f"fix wall_{plane.name} all wall/gran granular {case.lammps[1]} {plane.axis}plane " +
+                    (f"{plane.at} NULL\n" if plane.inward > 0 else f"NULL {plane.at}\n") for plane in WORK.planes)
     (folder / "in.case").write_text(f"""\
 units si
 atom_style sphere
@@ -239,22 +233,17 @@ def energies(program, folder):
 
 def tsubu(case, folder, grains, program):
     bed.write_csv(folder / "crowd.csv", grains)
-    length = math.sqrt(sum(c**2 for c in bed.GRAVITY_DIRECTION))
-    walls = "".join(f"[walls.{name}]\nplane = {{ point = {point}, normal = {normal} }}\n"
-                    for name, point, normal in [("floor", [0, 0, 0], [0, 0, 1]), ("left", [0, 0, 0], [1, 0, 0]),
-                                                ("right", [bed.SIDE, 0, 0], [-1, 0, 0]), ("front", [0, 0, 0], [0, 1, 0]),
-                                                ("back", [0, bed.SIDE, 0], [0, -1, 0])])
     (folder / "crowd.toml").write_text(f"""\
 [simulation]
 end = {(STEPS + 1) * DT!r}
-gravity = {[bed.GRAVITY * c / length for c in bed.GRAVITY_DIRECTION]}
+gravity = {bed.gravity(WORK)}
 integrator = "symplectic_euler"
 time_step = {DT}
 overlap_limit = 0.3
 {case.contact}[grains.crowd]
 source = "file"
 file = "crowd.csv"
-{walls}[output]
+{bed.wall_tables(WORK)}[output]
 frame_interval = {EVERY * DT!r}
 ledger_interval = {DT}
 """)
