@@ -41,6 +41,7 @@ void writeReport(const std::filesystem::path& path, const RunReport& r) {
   json["inserted"] = r.counts.inserted;
   json["removed"] = r.counts.removed;
   json["lost"] = r.counts.lost;
+  if (r.counts.impacts > 0) json["hard_impacts"] = r.counts.impacts;
   if (r.bonds) {
     json["bonds"] = r.counts.bonds;
     json["broken"] = r.counts.broken;

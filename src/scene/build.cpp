@@ -161,6 +161,7 @@ sim::Model buildModel(const Scene& scene) {
   const auto ofForces = [](const Observable& o) { return std::holds_alternative<PeakForce>(o.kind); };
   model.contactForces =
       scene.diagnostics.has_value() || model.showForces || s.limit == StepRule::spectral || std::any_of(scene.observe.begin(), scene.observe.end(), ofForces);
+  model.continuous = s.continuous;
   model.watch = {s.overlapLimit, s.travelLimit, s.onViolation == OnViolation::stop};
   model.seed = s.seed;
   return model;
@@ -316,7 +317,7 @@ FramePlan planFrames(const Scene& scene, const sim::Model& model, double speed, 
     step = s.safety * choice.limit;
     plan.limitedBy = fmt::format("{}; {} of the limit", choice.limitedBy, s.safety);
     const double travel = 0.5 * s.travelLimit * smallestRadius(model) / speed;
-    if (travel < step) {
+    if (travel < step && !s.continuous) {
       step = travel;
       plan.limitedBy = fmt::format("speed: up to {:.3g} m/s, half of travel_limit per step", speed);
     }
@@ -350,6 +351,7 @@ Built build(const Scene& scene) {
   buildMagnets(scene, built.model);
   sim::checkIntegrator(built.model);
   sim::checkRotation(built.model);
+  sim::checkContinuous(built.model);
   built.plan = planFrames(scene, built.model, expectedSpeed(built.model, built.bounds, scene.simulation.end), built.warnings);
   built.model.timeStep = built.plan.timeStep;
   built.style = buildStyle(scene);

@@ -42,6 +42,9 @@ void describeSimulation(Form& form, Simulation& s) {
   s.domain = present ? std::optional(domain) : std::nullopt;
   form.quantityOrAuto({"skin", "How much farther than contact neighbours are listed. \"auto\": from the radii."}, s.skin, length, positive);
   form.boolean({"ledger", "Keep the energy ledger."}, s.ledger);
+  form.boolean({"continuous", "Grains that go farther than travel_limit in a step are swept against others and walls, and meet them as hard spheres; "
+                              "otherwise that is a violation."},
+               s.continuous);
   words(form, {"on_violation", "What happens when a grain overlaps too deeply or moves too far in a step."}, s.onViolation, violations);
   form.quantity({"overlap_limit", "Deepest overlap allowed, in radii of the smaller grain."}, s.overlapLimit, number, {0, 1, false, false});
   form.quantity({"travel_limit", "Longest way allowed in one step, in radii."}, s.travelLimit, number, {0, 1, false, false});

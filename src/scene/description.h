@@ -96,6 +96,7 @@ struct Simulation {
   std::array<bool, 3> periodic{};  ///< x, y, z: directions in which the domain repeats itself
   std::optional<double> skin;  ///< m
   bool ledger = true;
+  bool continuous = false;
   OnViolation onViolation = OnViolation::stop;
   double overlapLimit = 0.1, travelLimit = 0.1;
 

@@ -109,6 +109,7 @@ struct Model {
   bool showForces = false;               ///< snapshots carry the forces of contacts; needs `contactForces`
   bool contactForces = false;            ///< an Instant may be asked for: contact forces are noted when somebody looks
   Watch watch;
+  bool continuous = false;               ///< C: grains that go beyond the watch's travel limit in a step are swept, and not complained of
   std::uint64_t seed = 1;
 };
 

@@ -80,7 +80,7 @@ Ledger Simulation::Impl::ledgerNow() {
   ledger.dissipatedTangential = dissipated(Accounts::tangential);
   ledger.dissipatedFriction = dissipated(Accounts::friction);
   ledger.dissipatedRolling = dissipated(Accounts::rolling);
-  ledger.workWalls = work;
+  ledger.workWalls = work + impactWork;
   ledger.inserted = insertedEnergy;
   ledger.removed = removedEnergy;
   ledger.heat.inserted = insertedHeat;

@@ -82,6 +82,9 @@ void checkRotation(const Model& model);
 /// Throws Error(scene) when the integrator cannot do what the model asks for.
 void checkIntegrator(const Model& model);
 
+/// Throws Error(scene) when the model asks for continuous collisions (C) with an integrator or a wall that cannot have them.
+void checkContinuous(const Model& model);
+
 /// The passes that this model asks for, in the order of the step.
 std::vector<std::unique_ptr<ForcePass>> makePasses(const Model& model);
 

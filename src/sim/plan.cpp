@@ -40,6 +40,7 @@ Plan Simulation::plan(const Model& model) {
   item(!model.counters.empty(), "counters");
   const bool periodic = std::find(model.periodic.begin(), model.periodic.end(), true) != model.periodic.end();
   item(periodic, "periodic domain");
+  item(model.continuous, "continuous collisions");
   item(model.ledger, "energy ledger");
   item(model.contactForces, "diagnostics");
 

@@ -41,11 +41,13 @@ Simulation::Impl::Impl(Model given, int threads)
       stages(static_cast<std::size_t>(threads)) {
   checkIntegrator(model);
   checkRotation(model);
+  checkContinuous(model);
   prepareLaws();
   for (const MovingWall& wall : moving) contactsOfMoving.push_back(stiffestContact(model, law, wall.wall()));
   checkPeriods(model);
   periods = Periods(model.domain, model.periodic);
   warnOfWalls();
+  if (model.continuous) prepareSweep();
   prepareState();
   if (model.ledger) {
     computeForces();
@@ -84,7 +86,7 @@ void Simulation::Impl::warnOfWalls() {
   const double travel = model.watch.travelLimit * largest;
   for (const Wall& wall : model.walls) {
     const double thickness = wall.surface->thinnest();
-    if (thickness < travel)
+    if (thickness < travel && !model.continuous)
       warnings.push_back(fmt::format("Wall '{}' is {:.3g} m thick at its thinnest, less than the {:.3g} m that a grain may go in a step.",
                                      wall.name, thickness, travel));
     const Box bounds = wall.surface->bounds();
@@ -298,12 +300,14 @@ void Simulation::Impl::move() {
   wallTravel += wallStep;
   fastest = std::sqrt(most.fastest2);
   if (changing) finishChange();
+  const bool far = !(most.travel2 <= model.watch.travelLimit * model.watch.travelLimit);
+  if (model.continuous && !(fastest * model.timeStep <= hardShare() * smallestRadius)) fastest = std::max(fastest, sweep(model.timeStep));
   innerTravel += fastest * model.timeStep;
   outerTravel += fastest * model.timeStep;
   ++steps;
   grainSteps += state.size();
   forcesKnown = false;
-  if (!(most.travel2 <= model.watch.travelLimit * model.watch.travelLimit)) watchTravel();
+  if (far && !model.continuous) watchTravel();
 }
 
 // An outer list holds as long as no pair that the inner list must have can be missing from it.
@@ -390,7 +394,8 @@ void Simulation::Impl::rebuildLists() {
   }
   grid.build(state.rows, outerSkin);
   pairs.build(state, slabs, grid, innerSkin, newPlace, team, periods);
-  walls.build(state, slabs, outerSkin, steps > 0 ? model.timeStep : 0.0, newPlace);
+  // What has been swept has not come by the straight way, and not through a wall.
+  walls.build(state, slabs, outerSkin, steps > 0 && !model.continuous ? model.timeStep : 0.0, newPlace);
   state.reference.resize(state.size());
   for (std::size_t g = 0; g < state.size(); ++g) state.reference[g] = {state.rows[g].x, state.rows[g].y, state.rows[g].z};
   state.wrap.clear();
@@ -409,13 +414,16 @@ std::string Simulation::Impl::describe(std::size_t grain) const {
   return fmt::format("grain {} at ({:.6g}, {:.6g}, {:.6g}) m, t = {:.6g} s (step {})", state.id[grain], row.x, row.y, row.z, time(), steps);
 }
 
+void Simulation::Impl::notANumber(std::size_t grain) const {
+  throw Error(ErrorKind::simulation, fmt::format("Not a number: {}.", describe(grain)),
+              "the step is probably too long for the stiffest contact: lower safety or give a smaller time_step");
+}
+
 void Simulation::Impl::watchTravel() {
   for (std::size_t g = 0; g < state.size(); ++g) {
     const GrainRow& row = state.rows[g];
     const double speed = Vec3(row.vx, row.vy, row.vz).norm();
-    if (!std::isfinite(speed + row.x + row.y + row.z))
-      throw Error(ErrorKind::simulation, fmt::format("Not a number: {}.", describe(g)),
-                  "the step is probably too long for the stiffest contact: lower safety or give a smaller time_step");
+    if (!std::isfinite(speed + row.x + row.y + row.z)) notANumber(g);
     if (warnedTravel_ || !(speed * model.timeStep > model.watch.travelLimit * row.radius)) continue;
     warnedTravel_ = true;
     complain(fmt::format("A grain moves {:.2g} of its radius in one step, more than {:.2g}: {}, speed {:.4g} m/s.",

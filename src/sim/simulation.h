@@ -22,6 +22,7 @@ struct Counts {
   std::vector<std::int64_t> crossed;  ///< per counter
   std::uint64_t bonds = 0;   ///< that hold
   std::uint64_t broken = 0;  ///< that have broken so far
+  std::uint64_t impacts = 0; ///< hard ones, of continuous collisions
 };
 
 struct LostGrain {

@@ -105,6 +105,8 @@ class Simulation::Impl {
   std::vector<std::string> warnings;
   std::vector<StreamProgress> streams;
   double insertedEnergy = 0, removedEnergy = 0;
+  double hardRate = 0, smallestRadius = std::numeric_limits<double>::infinity();  ///< C1: radii per second; m
+  double impactWork = 0;  ///< J: of moving walls on grains that they hit hard
   double wrapWork = 0;  ///< J: what gravity gets for grains that go on at the other end of a periodic domain
   std::uint32_t firstArrival = 0;  ///< id: grains from here on have come in the present step
   double insertedHeat = 0, removedHeat = 0;
@@ -150,6 +152,13 @@ class Simulation::Impl {
   Motion moveByStages();
 
   void watchOverlap();
+  class Sweep;
+  void prepareSweep();
+  /// Radii per step: what goes farther is swept.
+  double hardShare() const;
+  double sweep(double dt);
+  void warnRattle(std::size_t grain);
+  [[noreturn]] void notANumber(std::size_t grain) const;
   void watchTravel();
   void complain(const std::string& sentence, const std::string& hint);
   std::string describe(std::size_t grain) const;
@@ -184,7 +193,7 @@ class Simulation::Impl {
   void showForces(Snapshot& snapshot) const;
   std::uint64_t contactHash() const;
 
-  bool warnedOverlap_ = false, warnedTravel_ = false, warnedLightWall_ = false;
+  bool warnedOverlap_ = false, warnedTravel_ = false, warnedLightWall_ = false, warnedRattle_ = false;
 };
 
 }  // namespace tsubu::sim
