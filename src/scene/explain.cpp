@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/costs.h"
 #include "sim/laws/catalogue.h"
 #include "sim/network.h"
 #include "sim/simulation.h"
@@ -13,8 +14,7 @@ namespace tsubu::scene {
 
 namespace {
 
-// Rough, and meant to be: what one core of a present machine does on a settled bed, and what a frame costs it at 1280 × 720.
-constexpr double grainStepsPerSecond = 8e6;
+// Rough, and meant to be: what a frame costs one core of a present machine at 1280 × 720.
 constexpr double secondsPerFrame = 0.15;
 constexpr double listedPairsPerGrain = 4;  // of a settled bed of equal grains, with the skin
 constexpr double contactsPerGrain = 2.2;
@@ -62,6 +62,26 @@ std::string lawLines(const Scene& scene) {
   return text;
 }
 
+// What bench/step has measured for each feature of the scene, and the sum in ns per grain-step.
+std::string costLines(const sim::Model& model, double& sum) {
+  const MeasuredCosts& costs = measuredCosts();
+  std::string text = fmt::format("each costs     ns per grain-step and bytes, as measured in a bed of spheres by one thread of {} ({})\n", costs.machine, costs.isa);
+  sum = 0;
+  for (const std::string& feature : featuresOf(model)) {
+    const FeatureCost* const cost = costs.of(feature);
+    if (!cost) {
+      text += fmt::format("  {:<32}not measured\n", feature);
+      continue;
+    }
+    sum += cost->added;
+    text += fmt::format("  {:<32}{:>+8.1f} ns", feature, cost->added);
+    if (cost->bytesPerGrain != 0) text += fmt::format("  {:+} bytes per grain", cost->bytesPerGrain);
+    if (cost->bytesPerContact != 0) text += fmt::format("  {:+} bytes per contact", cost->bytesPerContact);
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string explain(const Scene& scene) { return explain(scene, build(scene)); }
@@ -75,7 +95,9 @@ std::string explain(const Scene& scene, const Built& built) {
   const double grainSteps = (start + streamed / 2) * static_cast<double>(frames.steps);
   const double memory = grains * (static_cast<double>(plan.bytesPerGrain) + contactsPerGrain * static_cast<double>(plan.bytesPerContact) +
                                   listedPairsPerGrain * static_cast<double>(plan.bytesPerListedPair));
-  const double computing = grainSteps / grainStepsPerSecond, drawing = static_cast<double>(frames.frames) * secondsPerFrame;
+  double nanoseconds = 0;
+  const std::string costs = costLines(built.model, nanoseconds);
+  const double computing = 1e-9 * grainSteps * nanoseconds, drawing = static_cast<double>(frames.frames) * secondsPerFrame;
 
   std::string text;
   if (!scene.title.empty()) text += scene.title + "\n\n";
@@ -94,6 +116,7 @@ std::string explain(const Scene& scene, const Built& built) {
   text += fmt::format("steps          {}{} for {:g} s\n", frames.live ? "by the first of them " : "", frames.steps, static_cast<double>(frames.steps) * frames.timeStep);
   text += fmt::format("frames         {} of {} x {} pixels, one every {:g} s ({} steps), slow motion {:g}\n", frames.frames,
                       scene.picture.width, scene.picture.height, frames.interval, frames.stepsPerFrame, slowMotion(scene.output));
+  text += costs;
   text += fmt::format("cost           roughly {} for {:.3g} million grain-steps on one core, and {} for the frames\n", duration(computing),
                       grainSteps / 1e6, duration(drawing));
   for (const std::string& warning : built.warnings) text += fmt::format("warning        {}\n", warning);
