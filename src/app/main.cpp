@@ -5,6 +5,10 @@
 #include <new>
 #include <vector>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -132,4 +136,10 @@ int mainOf(int argc, char** argv) {
 }  // namespace
 }  // namespace tsubu::app
 
-int main(int argc, char** argv) { return tsubu::app::mainOf(argc, argv); }
+int main(int argc, char** argv) {
+#ifdef __GLIBC__
+  // What large arrays leave behind goes back to the system at once, so that old and new neighbour lists do not add up.
+  mallopt(M_MMAP_THRESHOLD, 128 * 1024);
+#endif
+  return tsubu::app::mainOf(argc, argv);
+}

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <fstream>
+
 #include "core/error.h"
-#include "io/text_file.h"
 
 namespace tsubu::io {
 
@@ -28,18 +30,51 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
 
 }  // namespace
 
-CsvReader CsvReader::fromFile(const std::string& path) { return CsvReader(readTextFile(path, "file"), path); }
+CsvReader CsvReader::fromFile(const std::string& path) { return CsvReader(std::make_unique<std::ifstream>(path, std::ios::binary), path); }
 
-CsvReader::CsvReader(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {
+CsvReader::CsvReader(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) { readHeader(); }
+
+CsvReader::CsvReader(std::unique_ptr<std::istream> rest, std::string name) : rest_(std::move(rest)), name_(std::move(name)) {
+  readOn();
+  readHeader();
+}
+
+void CsvReader::readHeader() {
   constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
   if (text_.starts_with(byteOrderMark)) at_ = byteOrderMark.size();
   Row header;
   if (nextLine(header)) columns_.assign(header.fields.begin(), header.fields.end());
 }
 
+// A file that is not there fails here, as does a folder, which opens like a file.
+void CsvReader::readOn() {
+  constexpr std::size_t piece = 1 << 20;
+  text_.erase(0, at_);
+  at_ = 0;
+  const std::size_t kept = text_.size();
+  text_.resize(kept + piece);
+  rest_->read(text_.data() + kept, static_cast<std::streamsize>(piece));
+  text_.resize(kept + static_cast<std::size_t>(rest_->gcount()));
+  if (rest_->good()) return;
+  if (rest_->bad() || !rest_->eof())
+    throw Error(ErrorKind::files, fmt::format("The file '{}' cannot be read.", name_), "is the path right?");
+  rest_.reset();
+}
+
+std::size_t CsvReader::endOfLine() {
+  std::size_t end = text_.find('\n', at_);
+  while (end == std::string::npos && rest_) {
+    const std::size_t seen = text_.size() - at_;
+    readOn();
+    end = text_.find('\n', seen);
+  }
+  return std::min(end, text_.size());
+}
+
 bool CsvReader::nextLine(Row& row) {
-  while (at_ < text_.size()) {
-    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+  for (;;) {
+    const std::size_t end = endOfLine();
+    if (at_ >= text_.size()) return false;
     const std::string_view line = trimmed(std::string_view(text_).substr(at_, end - at_));
     at_ = end + 1;
     ++line_;
@@ -48,7 +83,6 @@ bool CsvReader::nextLine(Row& row) {
     split(line, row.fields);
     return true;
   }
-  return false;
 }
 
 bool CsvReader::next(Row& row) {

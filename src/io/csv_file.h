@@ -1,6 +1,8 @@
 #pragma once
-// Tables in text files, row by row: a table of ten million grains need not be in memory twice.
+// Tables in text files, row by row: of a table of ten million grains only a piece is in memory.
 
+#include <istream>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +15,7 @@ class CsvReader {
  public:
   struct Row {
     int line = 0;                          ///< in the file, from 1: for messages
-    std::vector<std::string_view> fields;  ///< as many as there are columns; valid as long as the reader
+    std::vector<std::string_view> fields;  ///< as many as there are columns; valid until the next row
   };
 
   /// Throws Error(files) when the file cannot be read.
@@ -31,8 +33,14 @@ class CsvReader {
   bool next(Row& row);
 
  private:
+  CsvReader(std::unique_ptr<std::istream> rest, std::string name);
+  void readHeader();
   bool nextLine(Row& row);
+  /// Where the line at `at_` ends; brings in more of the file as needed.
+  std::size_t endOfLine();
+  void readOn();
 
+  std::unique_ptr<std::istream> rest_;  // of the file; null when all of it is in `text_`
   std::string text_, name_;
   std::size_t at_ = 0;
   int line_ = 0;

@@ -107,8 +107,9 @@ void Simulation::Impl::prepareState() {
   state.turns = grainsTurn(model);
   state.conducts = model.heat;
   if (hasPermanentMagnets(model)) turnInterval = 1;
+  state.reserve(model.grains.size());
   for (const Grain& grain : model.grains) addGrain(grain);
-  model.grains.clear();
+  model.grains = std::vector<Grain>();
   streams.resize(model.streams.size());
   counts.crossed.assign(model.counters.size(), 0);
   prepareArrivals();
@@ -394,6 +395,7 @@ void Simulation::Impl::rebuildLists() {
   }
   grid.build(state.rows, outerSkin);
   pairs.build(state, slabs, grid, innerSkin, newPlace, team, periods);
+  state.clearForces();
   // What has been swept has not come by the straight way, and not through a wall.
   walls.build(state, slabs, outerSkin, steps > 0 && !model.continuous ? model.timeStep : 0.0, newPlace);
   state.reference.resize(state.size());

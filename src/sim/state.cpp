@@ -15,7 +15,6 @@ void State::add(const Grain& grain, double density, const Vec3& gravity, double 
   const Vec3 s = turns ? Vec3(grain.radius * grain.angularVelocity) : Vec3(Vec3::Zero());
   rows.push_back({x.x(), x.y(), x.z(), grain.radius, v.x(), v.y(), v.z(), 1 / massOf(density, grain.radius), s.x(), s.y(), s.z(),
                   1 / grain.radius});
-  forces.push_back({});
   if (integrator == Integrator::velocityVerlet) half.push_back({before.x(), before.y(), before.z(), 0, s.x(), s.y(), s.z(), 0});
   if (integrator == Integrator::centralDifferences) previous.push_back({x.x() - dt * before.x(), x.y() - dt * before.y(), x.z() - dt * before.z(), 0});
   if (turns) {
@@ -28,6 +27,17 @@ void State::add(const Grain& grain, double density, const Vec3& gravity, double 
   }
   material.push_back(grain.material);
   id.push_back(nextId++);
+}
+
+void State::reserve(std::size_t grains) {
+  rows.reserve(grains);
+  if (integrator == Integrator::velocityVerlet) half.reserve(grains);
+  if (turns) {
+    orientation.reserve(grains);
+    turned.reserve(grains);
+  }
+  material.reserve(grains);
+  id.reserve(grains);
 }
 
 void State::setImages(std::size_t count) {
@@ -51,6 +61,8 @@ void reorderOne(std::vector<T>& items, const std::vector<std::int32_t>& order) {
 
 void State::reorder(const std::vector<std::int32_t>& order) {
   images = 0;
+  forces = std::vector<ForceRow>();
+  reference = std::vector<Vec3>();
   reorderOne(rows, order);
   reorderOne(half, order);
   reorderOne(previous, order);
@@ -62,7 +74,8 @@ void State::reorder(const std::vector<std::int32_t>& order) {
   reorderOne(id, order);
   reorderOne(sides, order);
   reorderOne(wrap, order);
-  forces.assign(order.size(), ForceRow{});
 }
+
+void State::clearForces() { forces.assign(rows.size(), ForceRow{}); }
 
 }  // namespace tsubu::sim

@@ -41,10 +41,14 @@ struct State {
   /// Adds a grain; its velocity is that of the present instant. Schemes that keep something of the last (half) step take it as free
   /// fall.
   void add(const Grain& grain, double density, const Vec3& gravity, double dt);
+  /// Makes room for grains that are going to be added: so many, all in all.
+  void reserve(std::size_t grains);
   /// Makes room for so many images, or takes them away.
   void setImages(std::size_t count);
   /// Puts the grains into a new order: place k gets what was at order[k]. Grains that `order` leaves out are gone, and all images.
+  /// Forces and references are let go, to be there again when the lists have been made: in between, the room is needed for these.
   void reorder(const std::vector<std::int32_t>& order);
+  void clearForces();
 };
 
 /// kg

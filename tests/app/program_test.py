@@ -245,6 +245,28 @@ frame_interval = 0.004
         self.assertRegex(run("--version").stdout, r"^tsubu \d+\.\d+\.\d+")
 
 
+    @unittest.skipIf(os.environ.get("SANITIZED"), "sanitizers take memory of their own")
+    def test_memory_is_what_grains_and_contacts_need(self):
+        # Beyond what a small scene takes, at the fullest moment, neighbour lists made anew among others: docs/performance.md, "Memory".
+        def peak(edge, friction):
+            lattice = ('source = "lattice"\nlattice = "fcc"\nvelocity_spread = 0.5\nradius = 0.02\n'
+                       f"box = {{ min = [0, 0, 0.001], max = [{edge}, {edge}, {edge + 0.001}] }}\n" + ("" if friction else '[contact]\ntangential = "none"\n'))
+            self.scene.write_text(SCENE.replace('source = "list"\nradius = 0.02\npositions = [[0, 0, 0.06], [0.1, 0, 0.1]]\n', lattice))
+            process = subprocess.Popen([PROGRAM, "run", self.scene, "-o", self.out, "--no-frames", "--threads", "1", "--until", "0.004", "--set",
+                                        "simulation.ledger=false", "--set", "simulation.integrator=symplectic_euler"],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            self.assertEqual(process.returncode, 0)
+            return 1024 * usage.ru_maxrss, self.report()["grains"]
+
+        # Each grain has 12 neighbours that are listed, and touches half of them. Rows of grains; lists, and springs along them; what is
+        # remembered of contacts while the lists are made anew; a tenth for the grid and the rest.
+        for friction, bytes_needed in ((True, 254 + 6 * (20 + 24) + 3 * 36), (False, 190 + 6 * 20)):
+            (few, some), (full, many) = peak(0.1, friction), peak(1.7, friction)
+            self.assertGreater(many, 90_000)
+            self.assertLess((full - few) / (many - some), 1.1 * bytes_needed, f"bytes a grain, friction: {friction}")
+
     STUDIED = SCENE + """
 [observe]
 height = { kind = "centre_of_mass" }

@@ -1,5 +1,9 @@
 #include "io/csv_file.h"
 
+#include <cstdio>
+#include <fstream>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -39,6 +43,35 @@ TEST(CsvFile, RowsMustFitTheHeader) {
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), "t.csv:3:1: This row has 3 fields; the header names 2 columns.");
   }
+}
+
+TEST(CsvFile, ComesInPiecesAndIsTheSame) {
+  std::string text = "a,b\n";
+  for (int k = 0; text.size() < 5 << 19; ++k) text += std::to_string(k) + "," + std::string(static_cast<std::size_t>(k % 37), '7') + "\n";
+  text += "1,2,";  // no end of line, and a field too many
+  const std::string path = ::testing::TempDir() + "pieces.csv";
+  std::ofstream(path, std::ios::binary) << text;
+  CsvReader whole(text, "t.csv"), pieces = CsvReader::fromFile(path);
+  EXPECT_EQ(pieces.columns(), whole.columns());
+  CsvReader::Row one, other;
+  int rows = 0;
+  const auto next = [](CsvReader& table, CsvReader::Row& row) {
+    try {
+      return table.next(row);
+    } catch (const Error&) {
+      return false;
+    }
+  };
+  while (next(whole, one)) {
+    ASSERT_TRUE(next(pieces, other)) << rows;
+    ASSERT_EQ(one.fields, other.fields) << rows;
+    ASSERT_EQ(one.line, other.line);
+    ++rows;
+  }
+  EXPECT_GT(rows, 50'000);
+  EXPECT_FALSE(next(pieces, other));
+  EXPECT_EQ(other.line, one.line);
+  std::remove(path.c_str());
 }
 
 TEST(CsvFile, UnreadableFilesAreErrorsOfFiles) {

@@ -37,6 +37,7 @@ HOMES = {
     "immintrin.h": {"sim"},
     "hwy/": {"sim"},
     "zlib.h": {"io"},
+    "malloc.h": {"app"},
     "unistd.h": {"app", "io"},
     "sys/ioctl.h": {"app"},
     "sys/wait.h": {"app"},

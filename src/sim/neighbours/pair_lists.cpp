@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <utility>
 
 #include "sim/kernel/kernels.h"
 
@@ -40,47 +41,58 @@ std::size_t PairLists::listed() const {
 }
 
 void PairLists::rememberContacts() {
-  remembered_.clear();
-  if (stateSize_ == 0) return;
-  for (const SlabPairs& pairs : slabs_) {
+  const auto components = static_cast<std::size_t>(stateSize_);
+  const auto carries = [&](const SlabPairs& pairs, std::size_t k) {
+    for (std::size_t c = 0; c < components; ++c)
+      if (pairs.memory[c * pairs.stride + k] != 0) return true;
+    return false;
+  };
+  std::size_t count = 0;
+  for (const SlabPairs& pairs : slabs_)
+    for (std::size_t k = 0; k < pairs.i.size(); ++k) count += carries(pairs, k);
+  Remembered& r = remembered_;
+  r.i.reserve(count);
+  r.j.reserve(count);
+  r.memory.reserve(count * components);
+  for (SlabPairs& pairs : slabs_) {
     for (std::size_t k = 0; k < pairs.i.size(); ++k) {
-      Remembered contact{pairs.i[k], pairs.grainOf(pairs.j[k]), {}};
-      bool any = false;
-      for (int c = 0; c < stateSize_; ++c) {
-        contact.memory[c] = pairs.memory[static_cast<std::size_t>(c) * pairs.stride + k];
-        any = any || contact.memory[c] != 0;
-      }
-      if (any) remembered_.push_back(contact);
+      if (!carries(pairs, k)) continue;
+      r.i.push_back(pairs.i[k]);
+      r.j.push_back(pairs.grainOf(pairs.j[k]));
+      for (std::size_t c = 0; c < components; ++c) r.memory.push_back(pairs.memory[c * pairs.stride + k]);
     }
+    pairs = SlabPairs{};
   }
 }
 
 // Forces in the memory belong to i as seen from j: they change their sign when the pair turns round.
-void PairLists::turnRound(Remembered& contact) const {
-  std::swap(contact.i, contact.j);
+void PairLists::turnRound(double* memory) const {
   for (int c = 0; c < stateSize_; ++c)
-    if (odd_ >> c & 1U) contact.memory[c] = -contact.memory[c];
+    if (odd_ >> c & 1U) memory[c] = -memory[c];
 }
 
-// Brings what is remembered into the new order, (lower, higher) and sorted.
-void PairLists::placeRemembered(const State& state, const std::vector<std::int32_t>& newPlace) {
-  std::vector<std::int32_t>& from = rememberedFrom_;
-  from.assign(state.size() + 1, 0);
-  std::size_t kept = 0;
-  for (Remembered& contact : remembered_) {
-    contact.i = newPlace[static_cast<std::size_t>(contact.i)];
-    contact.j = newPlace[static_cast<std::size_t>(contact.j)];
-    if (contact.i < 0 || contact.j < 0) continue;
-    if (contact.i > contact.j) turnRound(contact);
-    remembered_[kept++] = contact;
-    ++from[static_cast<std::size_t>(contact.i) + 1];
+// Brings what is remembered into the new order: (lower, higher), and those of grains that are gone left out.
+void PairLists::placeRemembered(std::size_t grains, const std::vector<std::int32_t>& newPlace) {
+  Remembered& r = remembered_;
+  r.first.assign(grains + 1, 0);
+  for (std::size_t k = 0; k < r.i.size(); ++k) {
+    r.i[k] = newPlace[static_cast<std::size_t>(r.i[k])];
+    r.j[k] = newPlace[static_cast<std::size_t>(r.j[k])];
+    if (r.i[k] < 0 || r.j[k] < 0) continue;
+    if (r.i[k] > r.j[k]) {
+      std::swap(r.i[k], r.j[k]);
+      turnRound(&r.memory[k * static_cast<std::size_t>(stateSize_)]);
+    }
+    ++r.first[static_cast<std::size_t>(r.i[k]) + 1];
   }
-  remembered_.resize(kept);
-  for (std::size_t g = 1; g < from.size(); ++g) from[g] += from[g - 1];
-  std::vector<Remembered> sorted(kept);
-  std::vector<std::int32_t> next = from;
-  for (const Remembered& contact : remembered_) sorted[static_cast<std::size_t>(next[static_cast<std::size_t>(contact.i)]++)] = contact;
-  remembered_.swap(sorted);
+  for (std::size_t g = 1; g < r.first.size(); ++g) r.first[g] += r.first[g - 1];
+  r.order.resize(static_cast<std::size_t>(r.first.back()));
+  // Counts each beginning up to that of the next grain, and puts them back.
+  for (std::size_t k = 0; k < r.i.size(); ++k)
+    if (r.i[k] >= 0 && r.j[k] >= 0)
+      r.order[static_cast<std::size_t>(r.first[static_cast<std::size_t>(r.i[k])]++)] = static_cast<std::int32_t>(k);
+  std::copy_backward(r.first.begin(), r.first.end() - 1, r.first.end());
+  r.first.front() = 0;
 }
 
 void PairLists::searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, FlatPairs& own,
@@ -91,8 +103,8 @@ void PairLists::searchSlab(const State& state, const Slabs& slabs, const CellGri
   std::size_t count = 0;
   const auto sift = [&] {
     near.resize(count + 3);
-    const auto found = kernels().nearPairs(state.rows.data(), grains.data(), partners.data(), static_cast<std::int64_t>(count), grid.reach(),
-                                           near.data());
+    const auto found =
+        kernels().nearPairs(state.rows.data(), grains.data(), partners.data(), static_cast<std::int64_t>(count), grid.reach(), near.data());
     for (std::int64_t n = 0; n < found; ++n) {
       const auto k = static_cast<std::size_t>(near[static_cast<std::size_t>(n)]);
       const std::int32_t i = std::min(grains[k], partners[k]), j = std::max(grains[k], partners[k]);
@@ -192,22 +204,24 @@ void PairLists::build(State& state, const Slabs& slabs, const CellGrid& grid, do
   std::vector<FlatPairs> own(static_cast<std::size_t>(count)), before(static_cast<std::size_t>(count) + 1),
       across(static_cast<std::size_t>(count));
   slabs_.assign(static_cast<std::size_t>(count), SlabPairs{});
+  rooms_.resize(static_cast<std::size_t>(team.threads()));
   team.run(count, [&](int slab, int) {
     const auto s = static_cast<std::size_t>(slab);
     searchSlab(state, slabs, grid, slab, own[s], before[s]);
     if (periods.any()) searchAcross(state, slabs, grid, periods, slab, across[s], slabs_[s].images);
   });
   if (periods.any()) placeImages(state, slabs);
-  placeRemembered(state, newPlace);
-  team.run(count, [&](int slab, int) {
+  placeRemembered(state.size(), newPlace);
+  team.run(count, [&](int slab, int thread) {
     const auto s = static_cast<std::size_t>(slab);
     SlabPairs& pairs = slabs_[s];
     for (std::size_t k = 1; k < across[s].size(); k += 2) across[s][k] += pairs.firstImage;
     sortPairs({&own[s], &before[s + 1], &across[s]}, slabs.begin(slab), slabs.end(slab), pairs.outerI, pairs.outerJ);
-    filterSlab(state, pairs, innerSkin);
+    for (FlatPairs* sorted : {&own[s], &before[s + 1], &across[s]}) *sorted = FlatPairs();
+    filterSlab(state, pairs, innerSkin, rooms_[static_cast<std::size_t>(thread)]);
     if (stateSize_ > 0) handMemory(pairs);
   });
-  remembered_.clear();
+  remembered_ = Remembered();
 }
 
 namespace {
@@ -266,61 +280,83 @@ const double* PairLists::memoryOf(const Slabs& slabs, std::int32_t a, std::int32
 // What is remembered goes to the same pairs in the new lists: seen from the lower grain, also where the pair is seen from the higher one
 // (across the boundary).
 void PairLists::handMemory(SlabPairs& pairs) const {
+  const Remembered& r = remembered_;
+  const auto components = static_cast<std::size_t>(stateSize_);
+  double seen[mostMemory];
   for (std::size_t pair = 0; pair < pairs.i.size(); ++pair) {
     const std::int32_t i = pairs.i[pair], j = pairs.grainOf(pairs.j[pair]), low = std::min(i, j), high = std::max(i, j);
-    const auto first = static_cast<std::size_t>(rememberedFrom_[static_cast<std::size_t>(low)]);
-    const auto last = static_cast<std::size_t>(rememberedFrom_[static_cast<std::size_t>(low) + 1]);
-    for (std::size_t k = first; k < last; ++k) {
-      if (remembered_[k].j != high) continue;
-      Remembered seen = remembered_[k];
+    const auto first = static_cast<std::size_t>(r.first[static_cast<std::size_t>(low)]);
+    const auto last = static_cast<std::size_t>(r.first[static_cast<std::size_t>(low) + 1]);
+    for (std::size_t n = first; n < last; ++n) {
+      const auto k = static_cast<std::size_t>(r.order[n]);
+      if (r.j[k] != high) continue;
+      std::copy_n(&r.memory[k * components], components, seen);
       if (i != low) turnRound(seen);
-      for (int c = 0; c < stateSize_; ++c) pairs.memory[static_cast<std::size_t>(c) * pairs.stride + pair] = seen.memory[c];
+      for (std::size_t c = 0; c < components; ++c) pairs.memory[c * pairs.stride + pair] = seen[c];
     }
   }
 }
 
 void PairLists::refilter(State& state, double innerSkin, ThreadTeam& team) {
   stale_ = false;
-  team.run(static_cast<int>(slabs_.size()), [&](int slab, int) { filterSlab(state, slabs_[static_cast<std::size_t>(slab)], innerSkin); });
+  team.run(static_cast<int>(slabs_.size()), [&](int slab, int thread) {
+    filterSlab(state, slabs_[static_cast<std::size_t>(slab)], innerSkin, rooms_[static_cast<std::size_t>(thread)]);
+  });
 }
 
-void PairLists::filterSlab(State& state, SlabPairs& pairs, double innerSkin) const {
-  refreshImages(state, pairs);
-  pairs.outerIndex.swap(pairs.lastIndex);
-  pairs.memory.swap(pairs.lastMemory);
-  std::vector<std::int32_t>& kept = pairs.outerIndex;
-  const auto outer = static_cast<std::int64_t>(pairs.outerI.size());
-  kept.resize(pairs.outerI.size() + 3);
-  kept.resize(static_cast<std::size_t>(
-      kernels().nearPairs(state.rows.data(), pairs.outerI.data(), pairs.outerJ.data(), outer, innerSkin, kept.data())));
-  if (!pairs.outerTouch.empty())
-    std::erase_if(kept, [&](std::int32_t o) { return pairs.outerTouch[static_cast<std::size_t>(o)] < 0; });
+namespace {
 
-  const std::size_t count = kept.size();
-  pairs.i.resize(count);
-  pairs.j.resize(count);
+// Gives a vector whose entries are all to be written a new size: with a little room to grow, where the standard library doubles it.
+template <class T>
+void fit(std::vector<T>& items, std::size_t count) {
+  if (count > items.capacity() || items.capacity() > 2 * count + 1024) {
+    items = std::vector<T>();
+    items.reserve(count + count / 16);
+  }
+  items.resize(count);
+}
+
+}  // namespace
+
+void PairLists::filterSlab(State& state, SlabPairs& pairs, double innerSkin, Room& room) const {
+  refreshImages(state, pairs);
+  const std::size_t outer = pairs.outerI.size();
+  if (room.near.size() < outer + 3) room.near.resize(outer + 3);
+  const std::int64_t found = kernels().nearPairs(state.rows.data(), pairs.outerI.data(), pairs.outerJ.data(),
+                                                 static_cast<std::int64_t>(outer), innerSkin, room.near.data());
+  const auto begin = room.near.begin();
+  auto end = begin + found;
+  if (!pairs.outerTouch.empty())
+    end = std::remove_if(begin, end, [&](std::int32_t o) { return pairs.outerTouch[static_cast<std::size_t>(o)] < 0; });
+
+  const auto count = static_cast<std::size_t>(end - begin);
+  pairs.outerIndex.swap(room.lastIndex);
+  pairs.memory.swap(room.lastMemory);
+  for (auto* column : {&pairs.outerIndex, &pairs.i, &pairs.j}) fit(*column, count);
   for (std::size_t k = 0; k < count; ++k) {
-    const auto o = static_cast<std::size_t>(kept[k]);
+    const auto o = static_cast<std::size_t>(room.near[k]);
+    pairs.outerIndex[k] = room.near[k];
     pairs.i[k] = pairs.outerI[o];
     pairs.j[k] = pairs.outerJ[o];
   }
   pairs.touch.clear();
   if (!pairs.outerTouch.empty())
-    for (const std::int32_t o : kept) pairs.touch.push_back(pairs.outerTouch[static_cast<std::size_t>(o)]);
-  if (stateSize_ > 0) keepMemory(pairs);
+    for (const std::int32_t o : pairs.outerIndex) pairs.touch.push_back(pairs.outerTouch[static_cast<std::size_t>(o)]);
+  const std::size_t strideBefore = std::exchange(pairs.stride, count);
+  if (stateSize_ == 0) return;
+  fit(pairs.memory, count * static_cast<std::size_t>(stateSize_));
+  keepMemory(pairs, strideBefore, room);
 }
 
-// Memory goes from the last inner list to the present one. Both follow the order of the outer list.
-void PairLists::keepMemory(SlabPairs& pairs) const {
-  const std::size_t count = pairs.outerIndex.size(), before = pairs.lastIndex.size(), stride = pairs.stride;
+// Memory goes from the last inner list, of `before` pairs, to the present one. Both follow the order of the outer list.
+void PairLists::keepMemory(SlabPairs& pairs, std::size_t before, const Room& room) const {
+  const std::size_t count = pairs.outerIndex.size();
   const auto components = static_cast<std::size_t>(stateSize_);
-  pairs.stride = count;
-  pairs.memory.resize(count * components);
   std::size_t was = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    while (was < before && pairs.lastIndex[was] < pairs.outerIndex[k]) ++was;
-    const bool known = was < before && pairs.lastIndex[was] == pairs.outerIndex[k];
-    for (std::size_t c = 0; c < components; ++c) pairs.memory[c * count + k] = known ? pairs.lastMemory[c * stride + was] : 0;
+    while (was < before && room.lastIndex[was] < pairs.outerIndex[k]) ++was;
+    const bool known = was < before && room.lastIndex[was] == pairs.outerIndex[k];
+    for (std::size_t c = 0; c < components; ++c) pairs.memory[c * count + k] = known ? room.lastMemory[c * before + was] : 0;
   }
 }
 

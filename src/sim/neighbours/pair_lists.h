@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/thread_team.h"
+#include "sim/laws/memory.h"
 #include "sim/neighbours/cell_grid.h"
 #include "sim/neighbours/slabs.h"
-#include "sim/laws/memory.h"
 #include "sim/periodic.h"
 #include "sim/state.h"
 
@@ -31,8 +31,6 @@ struct SlabPairs {
   std::vector<std::int32_t> outerI, outerJ;
   std::vector<std::int32_t> i, j, outerIndex;  ///< inner list, and where each pair is in the outer one
   std::vector<double> memory;                  ///< component c of inner pair k at memory[c * stride + k]
-  std::vector<std::int32_t> lastIndex;         ///< outerIndex and memory of the last inner list: room for the next one
-  std::vector<double> lastMemory;
   std::size_t stride = 0;
   std::vector<double> outerTouch, touch;       ///< m: see PairRange::touch, along each list; empty: none
 
@@ -50,7 +48,7 @@ class PairLists {
   /// `stateSize` doubles of memory per contact; `odd`: those that change sign when the order of a pair turns round, as bits.
   PairLists(int stateSize, unsigned odd) : stateSize_(stateSize), odd_(odd) {}
 
-  /// Notes which contacts carry memory before the grains are put into a new order.
+  /// Notes which contacts carry memory before the grains are put into a new order, and lets the lists go.
   void rememberContacts();
   /// Searches the outer lists anew (grains in slab order, grid built) and hands the remembered memory to the same pairs.
   /// `newPlace`: old place → new place, −1 for grains that are gone.
@@ -80,27 +78,34 @@ class PairLists {
   std::size_t listed() const;
 
  private:
+  /// What the lists knew of contacts with memory, between two orders of the grains: `stateSize_` doubles in a row for each.
   struct Remembered {
-    std::int32_t i, j;
-    double memory[mostMemory];
+    std::vector<std::int32_t> i, j;
+    std::vector<double> memory;
+    std::vector<std::int32_t> order, first;  ///< by i; where those of each grain begin in `order`
+  };
+  /// What a thread needs while it makes an inner list: candidates, and the last inner list.
+  struct Room {
+    std::vector<std::int32_t> near, lastIndex;
+    std::vector<double> lastMemory;
   };
   using FlatPairs = std::vector<std::int32_t>;  // i0 j0 i1 j1 …
-  void turnRound(Remembered& contact) const;
+  void turnRound(double* memory) const;
   void searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, FlatPairs& own, FlatPairs& before) const;
   static void searchAcross(const State& state, const Slabs& slabs, const CellGrid& grid, const Periods& periods, int slab, FlatPairs& across,
                            std::vector<Image>& images);
   void placeImages(State& state, const Slabs& slabs);
-  void placeRemembered(const State& state, const std::vector<std::int32_t>& newPlace);
+  void placeRemembered(std::size_t grains, const std::vector<std::int32_t>& newPlace);
   void handMemory(SlabPairs& pairs) const;
-  void filterSlab(State& state, SlabPairs& pairs, double innerSkin) const;
-  void keepMemory(SlabPairs& pairs) const;
+  void filterSlab(State& state, SlabPairs& pairs, double innerSkin, Room& room) const;
+  void keepMemory(SlabPairs& pairs, std::size_t before, const Room& room) const;
 
   int stateSize_;
   bool stale_ = false;
   unsigned odd_;
   std::vector<SlabPairs> slabs_;
-  std::vector<Remembered> remembered_;        // between two orders; sorted by i
-  std::vector<std::int32_t> rememberedFrom_;  // where those of each grain begin
+  Remembered remembered_;
+  std::vector<Room> rooms_;  // one per thread
   struct Fold {
     std::int32_t owner, image;
   };
