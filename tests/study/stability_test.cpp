@@ -135,6 +135,34 @@ TEST(Stability, RulesForOneContactAreTooLong) {
   EXPECT_LT(many.automatic, many.measured);
 }
 
+// Grains that still fall collide whatever the step: what parts two copies is no fault of it.
+TEST(Stability, RainIsJudgedByEnergy) {
+  const std::string rain = R"(
+[simulation]
+end = 1
+safety = 0.5
+[materials.sand]
+density = 2500
+[pairs]
+normal_stiffness = "5000 N/m"
+restitution = 0.4
+friction = 0.6
+[grains.rain]
+source = "stream"
+cylinder = { base = [0, 0, 0.03], top = [0, 0, 0.05], radius = "6 mm" }
+rate = "800 grains/s"
+radius = "2 mm"
+[walls.floor]
+plane = {}
+)";
+  const Stability s = found(rain, {}, 0.2);
+  EXPECT_TRUE(s.found);
+  EXPECT_LT(s.automatic, s.measured);
+  EXPECT_GT(s.measured, 0.6 * s.predicted.spectral);
+  EXPECT_LT(s.measured, 2 * s.predicted.spectral);
+  if (s.restless) { EXPECT_NE(tableOf(s).find("does not stay as it is"), std::string::npos); }
+}
+
 TEST(Stability, OneThatBouncesHasNothingToBlowUp) {
   const Folder folder("stability");
   StabilityRequest request;
