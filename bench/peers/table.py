@@ -97,10 +97,10 @@ def check(series, tolerances):
 
 
 def print_runs(series):
-    print(f"\n{'work':<34}{'code':<14}{'cores':>5}{'grains':>9}{'median s':>10}{'min':>9}{'max':>9}{'Mgrain-steps/s':>16}")
+    print(f"\n{'work':<38}{'code':<14}{'cores':>5}{'grains':>9}{'median s':>10}{'min':>9}{'max':>9}{'Mgrain-steps/s':>16}")
     for one in series:
         seconds = [run.seconds for run in one.runs]
-        print(f"{one.work.name:<34}{one.name:<14}{one.cores:>5}{one.grains:>9}{one.seconds:>10.3f}{min(seconds):>9.3f}{max(seconds):>9.3f}"
+        print(f"{one.work.name:<38}{one.name:<14}{one.cores:>5}{one.grains:>9}{one.seconds:>10.3f}{min(seconds):>9.3f}{max(seconds):>9.3f}"
               f"{1e3 / one.per_grain_step:>16.2f}")
 
 
