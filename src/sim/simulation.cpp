@@ -315,12 +315,15 @@ void Simulation::Impl::move() {
 bool Simulation::Impl::outerListsHold() {
   if (2 * outerTravel + innerSkin <= outerSkin) return true;
   // The sum of the largest steps says too much: look how far grains really are from where they were.
-  double most2 = 0;
-  for (std::size_t g = 0; g < state.size(); ++g) {
-    const GrainRow& row = state.rows[g];
-    most2 = std::max(most2, (Vec3(row.x, row.y, row.z) - state.reference[g]).squaredNorm());
-  }
-  outerTravel = std::sqrt(most2);
+  std::vector<double> most2(static_cast<std::size_t>(slabs.count()), 0.0);
+  team.run(slabs.count(), [&](int slab, int) {
+    double& most = most2[static_cast<std::size_t>(slab)];
+    for (auto g = static_cast<std::size_t>(slabs.begin(slab)); g < static_cast<std::size_t>(slabs.end(slab)); ++g) {
+      const GrainRow& row = state.rows[g];
+      most = std::max(most, (Vec3(row.x, row.y, row.z) - state.reference[g]).squaredNorm());
+    }
+  });
+  outerTravel = std::sqrt(*std::max_element(most2.begin(), most2.end()));
   return 2 * outerTravel + innerSkin <= 0.9 * outerSkin;
 }
 
@@ -397,7 +400,7 @@ void Simulation::Impl::rebuildLists() {
   pairs.build(state, slabs, grid, innerSkin, newPlace, team, periods);
   state.clearForces();
   // What has been swept has not come by the straight way, and not through a wall.
-  walls.build(state, slabs, outerSkin, steps > 0 && !model.continuous ? model.timeStep : 0.0, newPlace);
+  walls.build(state, slabs, outerSkin, steps > 0 && !model.continuous ? model.timeStep : 0.0, newPlace, team);
   state.reference.resize(state.size());
   for (std::size_t g = 0; g < state.size(); ++g) state.reference[g] = {state.rows[g].x, state.rows[g].y, state.rows[g].z};
   state.wrap.clear();

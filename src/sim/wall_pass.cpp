@@ -65,7 +65,7 @@ bool WallPass::touches(const Vec3& centre, double radius) const {
   return false;
 }
 
-void WallPass::build(const State& state, const Slabs& slabs, double skin, double dt, const std::vector<std::int32_t>& newPlace) {
+void WallPass::build(const State& state, const Slabs& slabs, double skin, double dt, const std::vector<std::int32_t>& newPlace, ThreadTeam& team) {
   settle();
   // Contacts in force, by grain in the new order.
   struct Old {
@@ -92,9 +92,9 @@ void WallPass::build(const State& state, const Slabs& slabs, double skin, double
 
   slabs_.assign(static_cast<std::size_t>(slabs.count()), SlabWalls{});
   if (!slabs_.empty()) slabs_[0].work = work;
-  std::vector<std::uint32_t> features;
-  for (int s = 0; s < slabs.count(); ++s) {
+  team.run(slabs.count(), [&](int s, int) {
     SlabWalls& slab = slabs_[static_cast<std::size_t>(s)];
+    std::vector<std::uint32_t> features;
     for (std::int32_t g = slabs.begin(s); g < slabs.end(s); ++g) {
       const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
       const Vec3 centre = centreOf(row), velocity(row.vx, row.vy, row.vz);
@@ -129,7 +129,7 @@ void WallPass::build(const State& state, const Slabs& slabs, double skin, double
         slab.groups.push_back(group);
       }
     }
-  }
+  });
 }
 
 /// Contacts on the bench, and where each came from. The arrays are filled as far as `count` says.
@@ -279,21 +279,27 @@ void WallPass::putColumns(SlabWalls& slab, const WallGroup& group, std::int32_t 
   batch.load[k] = loadOf_[group.wall];
   batch.wall[k] = group.wall;
   batch.candidate[k] = candidateIndex;
-  batch.wallVelocity[k] = velocity;
-  batch.wallSpin[k] = twist.angularVelocity;
   Stage& s = batch.stage;
   s.dx[k] = d.x(), s.dy[k] = d.y(), s.dz[k] = d.z();
   s.radiusSum[k] = row.radius;
   s.dvx[k] = row.vx - velocity.x(), s.dvy[k] = row.vy - velocity.y(), s.dvz[k] = row.vz - velocity.z();
   s.inverseMassSum[k] = row.inverseMass + inverseMassOf(wall);
-  s.sx[k] = row.sx, s.sy[k] = row.sy, s.sz[k] = row.sz;
-  const V3 spin = row.inverseRadius * row.surfaceSpin(), wallSpin = v3(twist.angularVelocity);
-  const V3 mean = 0.5 * (spin + wallSpin), difference = spin - wallSpin;
-  s.ox[k] = mean.x, s.oy[k] = mean.y, s.oz[k] = mean.z;
-  s.rx[k] = difference.x, s.ry[k] = difference.y, s.rz[k] = difference.z;
-  s.inverseRadiusSum[k] = row.inverseRadius;
-  s.inverseInertiaSum[k] = row.inverseMass * row.inverseRadius * row.inverseRadius;
-  s.smallerRadius[k] = row.radius;
+  if (law_.turns) {
+    const V3 spin = row.inverseRadius * row.surfaceSpin(), wallSpin = v3(twist.angularVelocity), mean = 0.5 * (spin + wallSpin);
+    s.sx[k] = row.sx, s.sy[k] = row.sy, s.sz[k] = row.sz;
+    s.ox[k] = mean.x, s.oy[k] = mean.y, s.oz[k] = mean.z;
+    if (law_.rolls) {
+      const V3 difference = spin - wallSpin;
+      s.rx[k] = difference.x, s.ry[k] = difference.y, s.rz[k] = difference.z;
+      s.inverseInertiaSum[k] = row.inverseMass * row.inverseRadius * row.inverseRadius;
+    }
+  }
+  if (law_.readsRadius) s.inverseRadiusSum[k] = row.inverseRadius;
+  if (batch.account) {
+    batch.wallVelocity[k] = velocity;
+    batch.wallSpin[k] = twist.angularVelocity;
+    s.smallerRadius[k] = row.radius;
+  }
   s.weight[k] = weight;
   s.pairClass[k] = static_cast<std::int32_t>(context.material[group.grain] * context.materials + wall.material);
   const WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(candidateIndex)];

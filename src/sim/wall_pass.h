@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/thread_team.h"
 #include "sim/diagnostics/acting_contact.h"
 #include "sim/kernel/kernels.h"
 #include "sim/laws/catalogue.h"
@@ -71,7 +72,7 @@ class WallPass {
 
   /// New candidates for grains in their new order; memory goes along. `newPlace`: old place → new place, −1 for gone. `dt`: of the
   /// step that has just been made (0: none yet), so that a grain that came from behind a wall is found out.
-  void build(const State& state, const Slabs& slabs, double skin, double dt, const std::vector<std::int32_t>& newPlace);
+  void build(const State& state, const Slabs& slabs, double skin, double dt, const std::vector<std::int32_t>& newPlace, ThreadTeam& team);
 
   /// The walls are where they will be in this step: before the slabs are evaluated.
   void settle();
