@@ -41,9 +41,9 @@ struct alignas(64) BondStage {
   };
 
   Column d[3], radiusSum;
-  Motion half, now;  // `now` only when something is damped
+  Motion half, now;  // `now` only when something is damped and the rows do not have the velocities of the half step
   Column force[3], couple[3], moment[3];
-  Column loss, relaxed, load, released;
+  Column loss, relaxed, broken, released;
 };
 
 /// The ends of bonds as rows: of grains, or of the places on a wall where bonds are fixed.

@@ -84,7 +84,7 @@ struct BondForce {
   double arm;  ///< l over R of the same end
   double loss;      ///< J: what dampers take in the step
   double relaxed;   ///< J: what B5 has taken since the step before
-  double load;      ///< stress over strength: 1 breaks
+  bool holds;       ///< or breaks now
   double released;  ///< J: what the springs held half a step ago, when a bond that breaks now last pulled
 };
 
@@ -100,15 +100,25 @@ TSUBU_INLINE double springProduct(const BondBody& body, double shearOverNormal, 
           inertia * (2 * shearOverNormal * (a.twist * b.twist) + (a.bendT * b.bendT + a.bendB * b.bendB)));
 }
 
-/// B7–B10: the largest of the stresses over its strength. `normal` is positive in compression; `stretch` is r over the first length.
-TSUBU_INLINE double bondLoad(const BondKind& kind, double radius, double normal, double shear2, double torsion, double bending2,
-                             double stretch) {
+/// Stresses of a bond, Pa: along it (positive in compression), in the outermost fibre by bending, and across it with what torsion adds.
+struct BondStress {
+  double axial, fibre, shear;
+};
+TSUBU_INLINE BondStress bondStress(double radius, double normal, double shear2, double torsion, double bending2) {
   const double inverse = 1 / radius, perArea = (1 / bondPi) * inverse * inverse, section = 4 * perArea * inverse;  // r_b/I, twice r_b/J
-  const double axial = normal * perArea, fibre = std::sqrt(bending2) * section;
-  const double shear = std::sqrt(shear2) * perArea + 0.5 * std::abs(torsion) * section;
-  const double pull = (fibre - axial) * kind.perTension, push = (fibre + axial) * kind.perCompression;
-  const double slide = shear / (kind.shear + kind.pressureSlope * larger(axial, 0));
-  return larger(larger(pull, push), larger(slide, stretch * kind.perStretch));
+  return {normal * perArea, std::sqrt(bending2) * section, std::sqrt(shear2) * perArea + 0.5 * std::abs(torsion) * section};
+}
+TSUBU_INLINE double shearStrength(const BondKind& kind, double axial) { return kind.shear + kind.pressureSlope * larger(axial, 0); }
+
+/// B7–B10: the largest of the stresses over its strength; `stretch` is r over the first length. 1 breaks.
+TSUBU_INLINE double bondLoad(const BondKind& kind, const BondStress& stress, double stretch) {
+  const double pull = (stress.fibre - stress.axial) * kind.perTension, push = (stress.fibre + stress.axial) * kind.perCompression;
+  return larger(larger(pull, push), larger(stress.shear / shearStrength(kind, stress.axial), stretch * kind.perStretch));
+}
+/// The same without a division, where it matters only whether the bond holds.
+TSUBU_INLINE bool bondHolds(const BondKind& kind, const BondStress& stress, double r, double length) {
+  const double pull = (stress.fibre - stress.axial) * kind.perTension, push = (stress.fibre + stress.axial) * kind.perCompression;
+  return larger(larger(larger(pull, push) - 1, stress.shear - shearStrength(kind, stress.axial)), r * kind.perStretch - length) < 0;
 }
 
 /// \brief Advances the memory by a step and returns what the bond does.
@@ -116,17 +126,20 @@ TSUBU_INLINE double bondLoad(const BondKind& kind, double radius, double normal,
 /// \param moved  motion in the half step that led here
 /// \param now    motion of the instant; read by dampers only
 template <BondDamping damping, bool breakable>
-TSUBU_INLINE BondForce stepBond(const BondKind& kind, const BondBody& body, V3 d, double inverseRadiusSum, const BondMotion& moved,
+TSUBU_INLINE BondForce stepBond(const BondKind& kind, const BondBody& body, V3 d, double radiusSum, const BondMotion& moved,
                                 const BondMotion& now, double dt, BondMemory& memory) {
   const BondMemory before = memory;
   const V3 d0 = d - dt * moved.velocity;
   const double r = norm(d), r0 = norm(d0);
-  const V3 n = (1 / r) * d, n0 = (1 / r0) * d0;
+  // One division for three reciprocals, here and below: divisions are what the loop waits for.
+  const double all = 1 / (r * r0 * radiusSum), inverseRadiusSum = all * r * r0;
+  const V3 n = (all * r0 * radiusSum) * d, n0 = (all * r * radiusSum) * d0;
   // The frame: the smallest rotation from n0 to n, then about n with the mean spin of the grains.
   const V3 mid = n0 + n;
-  V3 t = before.t - (dot(before.t, n) / (1 + dot(n0, n))) * mid;
   const double angle = 0.5 * dt * inverseRadiusSum * dot(moved.spinSum, mid), quarter = 0.25 * angle * angle;
-  t = (1 / (1 + quarter)) * ((1 - quarter) * t + angle * cross(n, t));
+  const double bend = 1 + dot(n0, n), both = 1 / (bend * (1 + quarter));
+  V3 t = before.t - (dot(before.t, n) * (both * (1 + quarter))) * mid;
+  t = (both * bend) * ((1 - quarter) * t + angle * cross(n, t));
   t = t - dot(t, n) * n;
   t = (1.5 - 0.5 * norm2(t)) * t;
   const V3 b = cross(n, t), b0 = cross(n0, before.t);
@@ -166,8 +179,9 @@ TSUBU_INLINE BondForce stepBond(const BondKind& kind, const BondBody& body, V3 d
   double fn = normalK * stretch, ft = -shearK * memory.shearT, fb = -shearK * memory.shearB;
   double mn = -twistK * memory.twist, mt = -bendK * memory.bendT, mb = -bendK * memory.bendB;
   BondForce result{};
+  result.holds = true;
   if constexpr (breakable) {
-    result.load = bondLoad(kind, body.radius, fn, ft * ft + fb * fb, mn, mt * mt + mb * mb, r / body.length);
+    result.holds = bondHolds(kind, bondStress(body.radius, fn, ft * ft + fb * fb, mn, mt * mt + mb * mb), r, body.length);
     result.released = springProduct(body, kind.shearOverNormal, stretchBefore, stretch, before, memory);
   }
   if constexpr (damping == BondDamping::exponential) {

@@ -488,9 +488,9 @@ void BondPass::show(const World& world, Snapshot& snapshot) const {
     const double area = bondPi * body.radius * body.radius, normalK = body.stiffness * area, bendK = 0.25 * normalK * body.radius * body.radius;
     const double shearK = kind.constants.shearOverNormal * normalK, twistK = 2 * kind.constants.shearOverNormal * bendK;
     const double r = (a - b).norm();
-    const double load = bondLoad(kind.constants, body.radius, normalK * (m.rest - r), shearK * shearK * (m.shearT * m.shearT + m.shearB * m.shearB),
-                                 twistK * m.twist, bendK * bendK * (m.bendT * m.bendT + m.bendB * m.bendB), r / body.length);
-    snapshot.bonds.push_back({a, b, body.radius, load, -1});
+    const BondStress stress = bondStress(body.radius, normalK * (m.rest - r), shearK * shearK * (m.shearT * m.shearT + m.shearB * m.shearB),
+                                         twistK * m.twist, bendK * bendK * (m.bendT * m.bendT + m.bendB * m.bendB));
+    snapshot.bonds.push_back({a, b, body.radius, bondLoad(kind.constants, stress, r / body.length), -1});
   });
   for (const Break& each : breaks_) snapshot.bonds.push_back({each.first, each.second, each.radius, 0, world.time - each.time});
 }

@@ -56,7 +56,7 @@ TSUBU_INLINE void gatherFourBonds(const BondRows& first, const BondRows& second,
   for (int c = 0; c < 3; ++c) store4(s.d[c] + q, x[c]);
   store4(s.radiusSum + q, x[3]);
   gatherMotion(ui, uj, pi, pj, inverseI, inverseJ, q, s.half);
-  if constexpr (damped) gatherMotion(vi, vj, si, sj, inverseI, inverseJ, q, s.now);
+  if (damped && first.half) gatherMotion(vi, vj, si, sj, inverseI, inverseJ, q, s.now);
 }
 
 TSUBU_INLINE V3 at(const BondStage::Column* columns, int q) { return {columns[0][q], columns[1][q], columns[2][q]}; }
@@ -66,7 +66,7 @@ TSUBU_INLINE BondMotion at(const BondStage::Motion& motion, int q) {
 }
 
 template <BondDamping damping, bool breakable>
-void computeBonds(const BondKind& given, BondColumns& bonds, std::size_t first, int count, double dt, BondStage& s) {
+void computeBonds(const BondKind& given, BondColumns& bonds, std::size_t first, int count, double dt, const BondStage::Motion& instant, BondStage& s) {
   using Name = BondColumns;
   const BondKind kind = given;  // a copy that no store can change
   double* c[BondColumns::columns];
@@ -90,19 +90,19 @@ void computeBonds(const BondKind& given, BondColumns& bonds, std::size_t first, 
     BondMemory memory{{tx[q], ty[q], tz[q]}, shearT[q], shearB[q], twist[q], bendT[q], bendB[q], rest[q]};
     const BondBody body{radius[q], stiffness[q], length[q], critical[q], bendCritical[q]};
     BondMotion now{};
-    if constexpr (damping == BondDamping::percent || damping == BondDamping::viscous) now = at(s.now, q);
-    const BondForce f = stepBond<damping, breakable>(kind, body, at(s.d, q), 1 / s.radiusSum[q], at(s.half, q), now, dt, memory);
+    if constexpr (damping == BondDamping::percent || damping == BondDamping::viscous) now = at(instant, q);
+    const BondForce f = stepBond<damping, breakable>(kind, body, at(s.d, q), s.radiusSum[q], at(s.half, q), now, dt, memory);
     tx[q] = memory.t.x, ty[q] = memory.t.y, tz[q] = memory.t.z;
     shearT[q] = memory.shearT, shearB[q] = memory.shearB;
     twist[q] = memory.twist, bendT[q] = memory.bendT, bendB[q] = memory.bendB;
     if constexpr (damping == BondDamping::exponential) rest[q] = memory.rest;
-    const bool holds = !breakable || f.load < 1;
+    const bool holds = !breakable || f.holds;
     put(s.force, q, select(holds, f.force, {0, 0, 0}));
     put(s.couple, q, select(holds, f.arm * f.couple, {0, 0, 0}));
     put(s.moment, q, select(holds, f.moment, {0, 0, 0}));
     if constexpr (damping == BondDamping::percent || damping == BondDamping::viscous) s.loss[q] = holds ? f.loss : 0;
     if constexpr (damping == BondDamping::exponential) s.relaxed[q] = f.relaxed;
-    if constexpr (breakable) s.load[q] = f.load, s.released[q] = f.released;
+    if constexpr (breakable) s.broken[q] = holds ? 0 : 1, s.released[q] = f.released;
   }
 }
 
@@ -113,19 +113,31 @@ inline void addToLanes(const double* column, int count, double* lane) {
   for (int q = whole; q < count; ++q) lane[q - whole] += column[q];
 }
 
+/// Three columns of four bonds as rows.
+TSUBU_INLINE void toRows(const BondStage::Column* columns, int q, D4 (&rows)[4]) {
+  for (int c = 0; c < 3; ++c) rows[c] = load4(columns[c] + q);
+  rows[3] = D4{};
+  transpose4(rows[0], rows[1], rows[2], rows[3]);
+}
+
 /// Adds the columns to the rows of both ends, in the order of the bonds. T = −r Q + M, so a moment is −M/r in Q.
 inline void scatterBonds(const BondRows& first, const BondRows& second, const std::int32_t* is, const std::int32_t* js, int count,
                          const BondStage& s) {
-  for (int q = 0; q < count; ++q) {
-    const D4 force{s.force[0][q], s.force[1][q], s.force[2][q], 0}, couple{s.couple[0][q], s.couple[1][q], s.couple[2][q], 0};
-    const D4 moment{s.moment[0][q], s.moment[1][q], s.moment[2][q], 0};
-    const double ra = first.rows[is[q]].inverseRadius, rb = second.rows[js[q]].inverseRadius;
-    double* const a = &first.forces[is[q]].fx;
-    double* const b = &second.forces[js[q]].fx;
-    add4(a, force);
-    subtract4(b, force);
-    add4(a + 4, couple - D4{ra, ra, ra, ra} * moment);
-    add4(b + 4, couple + D4{rb, rb, rb, rb} * moment);
+  for (int q = 0; q < count; q += 4) {
+    D4 force[4], couple[4], moment[4];
+    toRows(s.force, q, force);
+    toRows(s.couple, q, couple);
+    toRows(s.moment, q, moment);
+    const int few = count - q < 4 ? count - q : 4;
+    for (int k = 0; k < few; ++k) {
+      const std::int32_t i = is[q + k], j = js[q + k];
+      double* const a = &first.forces[i].fx;
+      double* const b = &second.forces[j].fx;
+      add4(a, force[k]);
+      subtract4(b, force[k]);
+      add4(a + 4, couple[k] - fill4(first.rows[i].inverseRadius) * moment[k]);
+      add4(b + 4, couple[k] + fill4(second.rows[j].inverseRadius) * moment[k]);
+    }
   }
 }
 
@@ -149,14 +161,14 @@ void passBonds(const BondKind& kind, BondColumns& bonds, const BondRows& first, 
       }
       gatherFourBonds<damped>(first, second, i, j, q, stage);
     }
-    computeBonds<damping, breakable>(kind, bonds, from, count, dt, stage);
+    computeBonds<damping, breakable>(kind, bonds, from, count, dt, first.half ? stage.now : stage.half, stage);
     if constexpr (damped) addToLanes(stage.loss, count, found.loss);
     if constexpr (damping == BondDamping::exponential) addToLanes(stage.relaxed, count, found.relaxed);
     if constexpr (breakable) {
-      double most = 0;
-      for (q = 0; q < count; ++q) most = larger(most, stage.load[q]);
-      for (q = 0; most >= 1 && q < count; ++q) {
-        if (stage.load[q] < 1) continue;
+      double broken = 0;
+      for (q = 0; q < count; ++q) broken = larger(broken, stage.broken[q]);
+      for (q = 0; broken > 0 && q < count; ++q) {
+        if (stage.broken[q] == 0) continue;
         found.broken.push_back(static_cast<std::int32_t>(from) + q);
         found.released += stage.released[q];
       }
