@@ -16,7 +16,7 @@ namespace tsubu::sim {
 
 namespace {
 
-// The watch needs accounts; without a ledger it looks only so often. What goes wrong for good is seen a little later.
+// The watch looks only so often, since it costs something. What goes wrong for good is seen a little later.
 constexpr std::uint64_t watchEvery = 64;
 
 // Grains that a cache of some 16 MB holds: asking for rows ahead of time pays beyond, and costs a little below.
@@ -118,7 +118,7 @@ void Simulation::Impl::prepareState() {
 
 PassContext Simulation::Impl::context(PairClass pairClass, bool oneClass) {
   return {state.rows.data(), state.forces.data(),           state.material.data(), model.materials.size(),
-          oneClass ? constants.of(pairClass.first) : constants.values.data(), stepOf(), state.size() > fitsCache};
+          oneClass ? constants.of(pairClass.first) : constants.values.data(), stepOf(), observed, state.size() > fitsCache};
 }
 
 StepOf Simulation::Impl::stepOf() const {
@@ -155,7 +155,9 @@ void Simulation::Impl::computeForces(For whom) {
   }
   if (gravity.changes() && model.ledger) gravity.settle(momentOfMass());
 
-  accountsKnown = model.ledger || steps % watchEvery == 0;
+  const bool watched = steps % watchEvery == 0;
+  accountsKnown = model.ledger || watched;
+  observed = watched || whom == For::observer;
   if (rungeKutta) rungeKutta->keepMemory(pairs, walls);
   evaluateContacts(whom);
   book(1);
@@ -169,7 +171,7 @@ void Simulation::Impl::computeForces(For whom) {
   if (firstArrival < state.nextId) startHalfSteps(state, firstArrival, gravity.now(), model.timeStep);
   firstArrival = state.nextId;
   forcesKnown = true;
-  if (accountsKnown) watchOverlap();
+  if (watched) watchOverlap();
 }
 
 // Nothing but contacts acts, and nobody but the grains feels it: what a slab needs to move is known before the pass has ended.

@@ -96,7 +96,8 @@ class Simulation::Impl {
   std::uint64_t turnInterval = turnEvery;   ///< steps between updates of the orientations; magnets need them all
   bool forcesKnown = false;
   bool moved = false;                       ///< the step's grains have been moved in the pass over their contacts
-  bool accountsKnown = false;               ///< the last pass kept accounts
+  bool accountsKnown = false;               ///< the last pass kept accounts of what is dissipated
+  bool observed = false;                    ///< and of what is stored, and how deep contacts are
   std::vector<Motion> motions;              ///< one per slab
   std::vector<std::int32_t> placeAfterRemoval;  ///< old place → place after removals that the lists do not know yet; empty: none
 

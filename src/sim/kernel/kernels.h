@@ -33,10 +33,11 @@ struct PassContext {
   std::size_t materials;
   const double* pairs;            ///< constants of materials × materials, or of the one class
   StepOf step;
+  bool observed = false;          ///< with accounts: also what springs store and how deep contacts are
   bool prefetch = false;          ///< the grains are more than the cache holds: ask for partners ahead of time
 };
 
-/// Which variant of the loops: one class of pairs or several; with accounts (and watch) or without.
+/// Which variant of the loops: one class of pairs or several; with accounts of what is dissipated or without.
 struct PassKind {
   bool oneClass;
   bool accounts;

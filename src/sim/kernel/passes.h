@@ -81,7 +81,7 @@ void gather(const PassContext& context, const std::int32_t* is, const std::int32
     }
     gatherFour<Law>(rows, i, j, q, s);
   }
-  if constexpr (accounts)
+  if (accounts && context.observed)
     for (q = 0; q < count; ++q) s.smallerRadius[q] = smaller(rows[is[q]].radius, rows[js[q]].radius);
   if constexpr (!oneClass)
     for (q = 0; q < count; ++q)
@@ -198,6 +198,47 @@ void carryMemory(double turning, int count, Stage& s, double* const (&columns)[m
   }
 }
 
+/// A contact of the stage, as a law sees it.
+template <class Law>
+TSUBU_INLINE Contact contactAt(const Stage& s, int q) {
+  Contact c;
+  c.n = {s.dx[q], s.dy[q], s.dz[q]};
+  c.overlap = s.overlap[q];
+  c.separationSpeed = s.separationSpeed[q];
+  c.effectiveMass = s.effectiveMass[q];
+  c.inverseEffectiveMass = s.inverseMassSum[q];
+  c.rootMass = s.rootMass[q];
+  if constexpr (Law::readsRadius) c.effectiveRadius = s.effectiveRadius[q];
+  if constexpr (Law::turns) c.slip = {s.dvx[q], s.dvy[q], s.dvz[q]};
+  if constexpr (Law::rolls) {
+    c.relativeSpin = {s.rx[q], s.ry[q], s.rz[q]};
+    c.inverseSpinInertia = 2.5 * s.inverseInertiaSum[q];
+  }
+  return c;
+}
+
+/// What springs store at the instant of the forces, and how deep contacts are. Only rows of the ledger and the watch ask for it: the law
+/// is evaluated for them once more, before it advances the memory, and nothing else is kept.
+template <class Law, bool oneClass, bool weighted>
+void observe(const PassContext& context, const typename Law::Pair& known, int count, Stage& s, double* const (&columns)[mostMemory]) {
+  const typename Law::Pair only = known;
+  const StepOf step = context.step;
+  TSUBU_INDEPENDENT
+  for (int q = 0; q < count; ++q) {
+    const Contact c = contactAt<Law>(s, q);
+    const bool touching = c.overlap > 0;
+    typename Law::Memory held = memoryFromColumns<Law>(columns, q);
+    ContactEnergy energy{};
+    const typename Law::Pair pair = oneClass ? only : pairFromColumns<Law>(s.constants, q);
+    Law::template evaluate<true>(pair, c, step, held, energy);
+    const double share = weighted ? s.weight[q] : 1.0;
+    s.account[Accounts::storedNormal][q] = touching ? share * energy.storedNormal : 0;
+    s.account[Accounts::storedTangential][q] = touching ? share * energy.storedTangential : 0;
+    s.account[Accounts::storedRolling][q] = touching ? share * energy.storedRolling : 0;
+    s.account[Accounts::overlap][q] = touching ? c.overlap / s.smallerRadius[q] : 0;
+  }
+}
+
 /// The law on every contact of the chunk. `memory` points to the columns of the contacts' memory.
 template <class Law, bool oneClass, bool accounts, bool weighted>
 void compute(const PassContext& context, int count, Stage& s, double* const* memory) {
@@ -216,24 +257,12 @@ void compute(const PassContext& context, int count, Stage& s, double* const* mem
   double* columns[mostMemory];
   for (int k = 0; k < mostMemory; ++k) columns[k] = k < Law::stateSize ? memory[k] : nullptr;
   if constexpr (Law::stateSize > 0) carryMemory<Law>(step.turning, count, s, columns);
+  if constexpr (accounts)
+    if (context.observed) observe<Law, oneClass, weighted>(context, only, count, s, columns);
   TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) {
-    Contact c;
-    c.n = {s.dx[q], s.dy[q], s.dz[q]};
-    c.overlap = s.overlap[q];
+    const Contact c = contactAt<Law>(s, q);
     const bool touching = c.overlap > 0;
-    c.separationSpeed = s.separationSpeed[q];
-    c.effectiveMass = s.effectiveMass[q];
-    c.inverseEffectiveMass = s.inverseMassSum[q];
-    c.rootMass = s.rootMass[q];
-    if constexpr (Law::readsRadius) c.effectiveRadius = s.effectiveRadius[q];
-    if constexpr (Law::turns) {
-      c.slip = {s.dvx[q], s.dvy[q], s.dvz[q]};
-    }
-    if constexpr (Law::rolls) {
-      c.relativeSpin = {s.rx[q], s.ry[q], s.rz[q]};
-      c.inverseSpinInertia = 2.5 * s.inverseInertiaSum[q];
-    }
     typename Law::Memory held = memoryFromColumns<Law>(columns, q);
     const typename Law::Memory before = held;
     ContactEnergy energy{};
@@ -256,31 +285,41 @@ void compute(const PassContext& context, int count, Stage& s, double* const* mem
     memoryToColumns<Law>(held, touching, columns, q);
     if constexpr (accounts) {
       // What a spring still holds when its contact ends is let go: friction and rolling resistance keep it.
-      const double released = Law::storedTangential(pair, before);
-      double releasedRolling = 0;
-      if constexpr (Law::stateSize > Law::tangentialSize)
-        releasedRolling = Law::storedRolling(pair, c, Law::Normal::force(pair.normal, c, step).stiffness, before);
-      s.account[Accounts::storedNormal][q] = touching ? share * energy.storedNormal : 0;
-      s.account[Accounts::storedTangential][q] = touching ? share * energy.storedTangential : 0;
-      s.account[Accounts::storedRolling][q] = touching ? share * energy.storedRolling : 0;
       s.account[Accounts::normal][q] = touching ? share * energy.normal : 0;
-      s.account[Accounts::tangential][q] = touching ? share * energy.tangential : 0;
-      s.account[Accounts::friction][q] = share * (touching ? energy.friction : released);
-      s.account[Accounts::rolling][q] = share * (touching ? energy.rolling : releasedRolling);
-      s.account[Accounts::overlap][q] = touching ? c.overlap / s.smallerRadius[q] : 0;
+      if constexpr (Law::turns) {
+        s.account[Accounts::tangential][q] = touching ? share * energy.tangential : 0;
+        s.account[Accounts::friction][q] = share * (touching ? energy.friction : Law::storedTangential(pair, before));
+      }
+      if constexpr (Law::rolls) {
+        double released = 0;
+        if constexpr (Law::stateSize > Law::tangentialSize)
+          released = Law::storedRolling(pair, c, Law::Normal::force(pair.normal, c, step).stiffness, before);
+        s.account[Accounts::rolling][q] = share * (touching ? energy.rolling : released);
+      }
     }
   }
 }
 
-void addAccounts(int count, const Stage& s, Accounts& accounts) {
+/// Which kinds of accounts a law fills in.
+template <class Law>
+constexpr bool books(Accounts::Kind kind) {
+  return kind == Accounts::rolling                                        ? Law::rolls
+         : kind == Accounts::tangential || kind == Accounts::friction ? Law::turns
+                                                                         : true;
+}
+
+template <class Law>
+void addAccounts(int count, const Stage& s, bool observed, Accounts& accounts) {
   const int whole = count & ~7;
-  for (int kind = 0; kind < Accounts::overlap; ++kind) {
+  for (int kind = observed ? 0 : Accounts::normal; kind < Accounts::overlap; ++kind) {
+    if (!books<Law>(static_cast<Accounts::Kind>(kind))) continue;
     const double* const column = s.account[kind];
     double* const lane = accounts.lane[kind];
     for (int q = 0; q < whole; q += 8)
       for (int l = 0; l < 8; ++l) lane[l] += column[q + l];
     for (int q = whole; q < count; ++q) lane[q - whole] += column[q];
   }
+  if (!observed) return;
   const double* const overlap = s.account[Accounts::overlap];
   double* const deepest = accounts.lane[Accounts::overlap];
   for (int q = 0; q < whole; q += 8)
@@ -368,7 +407,7 @@ void passPairs(const PassContext& context, const PairRange& range, Stage& stage,
     if (range.touch) touchSooner<Law>(range.touch + first, count, stage);
     compute<Law, oneClass, accounts, false>(context, count, stage, memory);
     if (range.touch) restoreArms<Law>(range.touch + first, count, stage);
-    if constexpr (accounts) addAccounts(count, stage, sums);
+    if constexpr (accounts) addAccounts<Law>(count, stage, context.observed, sums);
     scatter<Law>(context, range.i + first, range.j + first, count, stage);
   }
 }
@@ -378,7 +417,7 @@ void passWalls(const PassContext& context, int count, Stage& stage, Accounts& su
   double* memory[mostMemory];
   for (int c = 0; c < mostMemory; ++c) memory[c] = stage.memory[c];
   compute<Law, oneClass, accounts, true>(context, count, stage, memory);
-  if constexpr (accounts) addAccounts(count, stage, sums);
+  if constexpr (accounts) addAccounts<Law>(count, stage, context.observed, sums);
 }
 
 #ifndef TSUBU_EVERY_LAW
