@@ -16,15 +16,17 @@ namespace tsubu::sim {
 
 namespace {
 
-// The watch looks only so often, since it costs something. What goes wrong for good is seen a little later.
-constexpr std::uint64_t watchEvery = 64;
+// The watch looks only so often, since it costs something, the more where no ledger is kept; at every step in the beginning, where most
+// scenes go wrong. What goes wrong for good is seen a little later.
+constexpr std::uint64_t watchEvery = 64, watchEveryWithLedger = 16;
 
 // Grains that a cache of some 16 MB holds: asking for rows ahead of time pays beyond, and costs a little below.
 constexpr std::size_t fitsCache = 60'000;
 
 // Neighbour lists: skins in terms of how far the fastest grain moves in a step, bounded in terms of the smallest radius.
-constexpr double outerSteps = 120, innerSteps = 6;
-constexpr double leastOuter = 0.2, mostOuter = 0.8, leastInner = 0.02, mostInner = 0.25;
+// Some grains may fall while the others hardly move: the bounds keep them from filling everybody's lists.
+constexpr double outerSteps = 120, innerSteps = 3;
+constexpr double leastOuter = 0.2, mostOuter = 1.2, leastInner = 0.02, mostInner = 0.06;
 
 }  // namespace
 
@@ -155,7 +157,7 @@ void Simulation::Impl::computeForces(For whom) {
   }
   if (gravity.changes() && model.ledger) gravity.settle(momentOfMass());
 
-  const bool watched = steps % watchEvery == 0;
+  const bool watched = steps < watchEvery || steps % (model.ledger ? watchEveryWithLedger : watchEvery) == 0;
   accountsKnown = model.ledger || watched;
   observed = watched || whom == For::observer;
   if (rungeKutta) rungeKutta->keepMemory(pairs, walls);
