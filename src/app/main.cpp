@@ -138,8 +138,9 @@ int mainOf(int argc, char** argv) {
 
 int main(int argc, char** argv) {
 #ifdef __GLIBC__
-  // What large arrays leave behind goes back to the system at once, so that old and new neighbour lists do not add up.
-  mallopt(M_MMAP_THRESHOLD, 128 * 1024);
+  // What large arrays leave behind goes back to the system at once, so that old and new neighbour lists do not add up in large beds. Smaller
+  // arrays are used again: pages that come anew cost time.
+  mallopt(M_MMAP_THRESHOLD, 4 * 1024 * 1024);
 #endif
   return tsubu::app::mainOf(argc, argv);
 }

@@ -5,11 +5,16 @@
 namespace tsubu {
 
 namespace {
-// A pass follows the last one within microseconds: look for it a while before sleeping. Too long a look would steal the core from
-// the threads that draw and write pictures.
-constexpr int looksBeforeSleep = 2000;
+// A pass follows the last one within microseconds, or within some milliseconds where lists are made anew: look for it a while before
+// sleeping, the longer part of it in such a way that threads that draw and write pictures get the core. A thread that sleeps often is
+// soon woken on the core of the one that wakes it, and the two share that from then on, with the other core idle.
+constexpr int looksBeforeYield = 2000, looksBeforeSleep = 12000;
 
-inline void pause() {
+inline void waitALittle(int looks) {
+  if (looks >= looksBeforeYield) {
+    std::this_thread::yield();
+    return;
+  }
 #if defined(__x86_64__)
   __builtin_ia32_pause();
 #endif
@@ -45,12 +50,7 @@ void ThreadTeam::run(int tasks, const std::function<void(int, int)>& task) {
   }
   wake_.notify_all();
   takeTasks(0);
-  for (int looks = 0; busy_.load(std::memory_order_acquire) > 0; ++looks) {
-    if (looks < looksBeforeSleep)
-      pause();
-    else
-      std::this_thread::yield();
-  }
+  for (int looks = 0; busy_.load(std::memory_order_acquire) > 0; looks += looks < looksBeforeYield) waitALittle(looks);
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
@@ -68,7 +68,7 @@ void ThreadTeam::takeTasks(int thread) {
 void ThreadTeam::work(int thread) {
   unsigned seen = 0;
   for (;;) {
-    for (int looks = 0; looks < looksBeforeSleep && round_.load(std::memory_order_acquire) == seen; ++looks) pause();
+    for (int looks = 0; looks < looksBeforeSleep && round_.load(std::memory_order_acquire) == seen; ++looks) waitALittle(looks);
     if (round_.load(std::memory_order_acquire) == seen) {
       std::unique_lock lock(mutex_);
       wake_.wait(lock, [&] { return round_.load() != seen; });
