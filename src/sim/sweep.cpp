@@ -67,12 +67,12 @@ class Simulation::Impl::Sweep {
       if (movers_.empty() || !(movers_[first].next.time <= dt_)) break;
       meet(first);
     }
-    double fastest = 0;
+    double most = 0;
     for (const Mover& mover : movers_) {
       leave(mover);
-      fastest = std::max(fastest, mover.u.norm());
+      most = std::max(most, mover.u.norm());
     }
-    return fastest;
+    return most;
   }
 
  private:
@@ -126,10 +126,10 @@ class Simulation::Impl::Sweep {
     const double t = mover.since, r = row(mover.grain).radius, half = 0.5 * (dt_ - t) * mover.u.norm();
     const Vec3 middle = mover.x + 0.5 * (dt_ - t) * mover.u;
     near_.clear();
-    const double reach = r + half + sim_.outerSkin + sim_.model.watch.travelLimit * largest_;
+    const double around = r + half + sim_.outerSkin + sim_.model.watch.travelLimit * largest_;
     const Vec3 inside = sim_.periods.wrapped(middle);
-    sim_.grid.near(inside, reach, mover.grain, near_);
-    sim_.periods.forImages(inside, sim_.grid.farthest(reach), [&](int shift) { sim_.grid.near(inside + sim_.periods.shift(shift), reach, mover.grain, near_); });
+    sim_.grid.near(inside, around, mover.grain, near_);
+    sim_.periods.forImages(inside, sim_.grid.farthest(around), [&](int shift) { sim_.grid.near(inside + sim_.periods.shift(shift), around, mover.grain, near_); });
     for (const std::size_t other : far_)
       if (other != m) near_.push_back(movers_[other].grain);
     for (const std::int32_t j : near_) {
