@@ -261,11 +261,12 @@ frame_interval = 0.004
             return 1024 * usage.ru_maxrss, self.report()["grains"]
 
         # Each grain has 12 neighbours that are listed, and touches half of them. Rows of grains; lists, and springs along them; what is
-        # remembered of contacts while the lists are made anew; a tenth for the grid and the rest.
+        # remembered of contacts while the lists are made anew; a quarter for the grid and for what lies between arrays below 4 MB, which
+        # are used again and not given back.
         for friction, bytes_needed in ((True, 254 + 6 * (20 + 24) + 3 * 36), (False, 190 + 6 * 20)):
             (few, some), (full, many) = peak(0.1, friction), peak(1.7, friction)
             self.assertGreater(many, 90_000)
-            self.assertLess((full - few) / (many - some), 1.1 * bytes_needed, f"bytes a grain, friction: {friction}")
+            self.assertLess((full - few) / (many - some), 1.25 * bytes_needed, f"bytes a grain, friction: {friction}")
 
     STUDIED = SCENE + """
 [observe]
