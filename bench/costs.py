@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The costs of features, from the numbers of bench/step, as `tsubu explain` shows them.
 
-    build/release/bench/step --benchmark_filter='^(?!two|portable|avx)' --benchmark_repetitions=5 \\
+    build/release/bench/step --benchmark_filter='-^(two|portable|avx)' --benchmark_repetitions=5 \\
         --benchmark_enable_random_interleaving=true --benchmark_min_time=0.3 --benchmark_out=costs.json
     bench/costs.py costs.json > bench/costs.csv
 
