@@ -47,7 +47,7 @@ void addSceneOptions(CLI::App& command, std::string& scene, scene::Overrides& ov
 void addTradeoffOptions(CLI::App& command, TradeoffOptions& options) {
   addSceneOptions(command, options.scene, options.overrides);
   command.add_option("-o,--output", options.folder, "Folder for the study (out/NAME.tradeoff when not given)")->type_name("DIR");
-  command.add_option("--axes", options.axes, "What to turn: step, stiffness, integrator, grains, law, memory, rolling, skin (all when not given), and picture")
+  command.add_option("--axes", options.axes, "What to turn: step, stiffness, integrator, grains, law, memory, rolling, precision, skin (all when not given), and picture")
       ->delimiter(',');
   command.add_flag("--features", options.features, "Switch features off instead: which of them does the scene notice?");
   command.add_option("--budget", options.budget, "Time for all trials: 90s, 10m, 1h (10m when not given)");

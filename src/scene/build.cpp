@@ -145,6 +145,7 @@ sim::Model buildModel(const Scene& scene) {
   buildMaterials(scene, model);
   model.contact = scene.contact;
   model.integrator = s.integrator;
+  model.precision = s.precision;
   model.gravity = s.gravity;
   model.fields = scene.fields;
   model.heat = scene.heat.has_value();
@@ -352,6 +353,7 @@ Built build(const Scene& scene) {
   sim::checkIntegrator(built.model);
   sim::checkRotation(built.model);
   sim::checkContinuous(built.model);
+  sim::checkPrecision(built.model);
   built.plan = planFrames(scene, built.model, expectedSpeed(built.model, built.bounds, scene.simulation.end), built.warnings);
   built.model.timeStep = built.plan.timeStep;
   built.style = buildStyle(scene);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "scene/check.h"
+#include "sim/pass.h"
 #include "sim/time_step.h"
 
 namespace tsubu::scene {
@@ -19,6 +20,7 @@ class ValueCheck {
 
   void all() {
     limit();
+    precision();
     if (scene_.simulation.domain) domain(*scene_.simulation.domain);
     for (const GrainSource& source : scene_.grains) grains(source);
     for (const Wall& wall : scene_.walls) motions(wall);
@@ -48,6 +50,15 @@ class ValueCheck {
       sim::checkChangingSteps(s.integrator);
     } catch (const Error& error) {
       for (const Diagnostic& what : error.diagnostics()) complain({"simulation", "limit"}, what.message, what.hint);
+    }
+  }
+
+  void precision() {
+    const Simulation& s = scene_.simulation;
+    try {
+      sim::checkPrecision(s.precision, scene_.contact, s.integrator);
+    } catch (const Error& error) {
+      for (const Diagnostic& what : error.diagnostics()) complain({"simulation", "precision"}, what.message, what.hint);
     }
   }
 

@@ -81,6 +81,7 @@ std::vector<std::string> featuresOf(const sim::Model& model) {
   }
   add(model.contact.tangential != "none" && !model.contact.rotation, "rotation held");
   add(model.integrator != sim::Integrator::symplecticEuler, fmt::format("integrator: {}", sim::schemeOf(model.integrator).name));
+  add(model.precision == sim::Precision::mixed, "mixed precision");
   add(model.ledger, "energy ledger");
   add(!model.bonds.empty(), "bonds");
   add(model.fields.drag.has_value(), "drag");

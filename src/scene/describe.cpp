@@ -18,6 +18,8 @@ void describeSimulation(Form& form, Simulation& s) {
                                            {"leapfrog", "Velocities at half steps, which contacts see: second order, first with dashpots."},
                                            {"central_differences", "Positions from the last two (Störmer): the path of leapfrog, with more rounding."},
                                            {"rk4", "Runge–Kutta: fourth order where contacts are smooth, four evaluations per step."}};
+  static constexpr Choice precisions[] = {{"double", "Everything in double precision."},
+                                          {"mixed", "Contacts between grains in single precision, from differences taken in double; all else in double."}};
   static constexpr Choice limits[] = {{"packing", "What a packing of the smallest grains bears, known before any contact is; one step for the whole run."},
                                       {"spectral", "What the live network of contacts and bonds bears, from its stiffest mode; steps follow it through the run."}};
   static constexpr Choice axes[] = {{"x", {}}, {"y", {}}, {"z", {}}};
@@ -26,6 +28,8 @@ void describeSimulation(Form& form, Simulation& s) {
   form.quantity(required("end", "Simulated time at which the run ends."), s.end, time, positive);
   form.vector({"gravity", "Acceleration of gravity."}, s.gravity, acceleration);
   words(form, {"integrator", "How velocities and positions are advanced."}, s.integrator, integrators);
+  words(form, {"precision", "What is computed in which numbers: contacts in single precision take less time (docs/tradeoff.md tells the error)."},
+        s.precision, precisions);
   form.quantityOrAuto({"time_step", "\"auto\": the safety factor times the stability limit."}, s.timeStep, time, positive);
   words(form, {"limit", "What the automatic time step is a share of."}, s.limit, limits);
   form.quantity({"safety", "The automatic time step as a share of the stability limit."}, s.safety, number, {0, 1, false, false});

@@ -88,6 +88,7 @@ struct Simulation {
   double end = 0;  ///< s
   Vec3 gravity{0, 0, -9.81};
   sim::Integrator integrator = sim::Integrator::velocityVerlet;
+  sim::Precision precision = sim::Precision::full;
   std::optional<double> timeStep;  ///< s; absent: from the stability limit
   StepRule limit = StepRule::packing;
   double safety = 0.25;            ///< of the stability limit, when the time step is automatic

@@ -84,11 +84,16 @@ struct Watch {
   bool stop = true;           ///< otherwise warn once for each kind and go on
 };
 
+/// What is computed in which numbers (docs/decisions/0011-precision.md). `mixed`: contacts between grains in single precision, from differences
+/// of positions and velocities taken in double, and all else in double.
+enum class Precision { full, mixed };
+
 struct Model {
   std::vector<Material> materials;
   PairTable pairs;
   ContactChoice contact;
   Integrator integrator = Integrator::velocityVerlet;
+  Precision precision = Precision::full;
   Vec3 gravity = Vec3::Zero();           ///< m/s²; before any change that `fields` tells of
   Fields fields;
   std::optional<Magnets> magnets;        ///< grains act on each other as magnets

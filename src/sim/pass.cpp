@@ -47,4 +47,43 @@ void checkIntegrator(const Model& model) {
     if (wall.body) throw Error(ErrorKind::scene, fmt::format("Runge-Kutta does not move walls under load, as wall '{}' is.", wall.name), hint);
 }
 
+namespace {
+
+// Beyond, squares of moments leave the range of single numbers: grains like dust, or like houses.
+constexpr double smallestSingle = 10e-6, largestSingle = 100;  // radius, m
+
+constexpr std::string_view withoutIt = "leave out precision = \"mixed\"";
+
+void checkSingleRange(double smallest, double largest) {
+  if (smallest >= smallestSingle && largest <= largestSingle) return;
+  const std::string radii = smallest == largest ? fmt::format("A radius of {:.3g} m is", smallest)
+                                                : fmt::format("Radii from {:.3g} to {:.3g} m are", smallest, largest);
+  throw Error(ErrorKind::scene,
+              fmt::format("{} outside of what single precision can do: {:g} m to {:g} m.", radii, smallestSingle, largestSingle), std::string(withoutIt));
+}
+
+}  // namespace
+
+void checkPrecision(Precision precision, const ContactChoice& contact, Integrator integrator) {
+  if (precision != Precision::mixed) return;
+  const std::size_t law = lawIndex(contact);
+  if (!hasSingleKernel(law)) {
+    const LawFunctions& functions = lawFunctions(law);
+    throw Error(ErrorKind::scene,
+                fmt::format("The laws {}, {}, {} and {} (normal, tangential, rolling, twisting) are there in double precision alone.", functions.names[0],
+                            functions.names[1], functions.names[2], functions.names[3]),
+                std::string(withoutIt));
+  }
+  if (integrator == Integrator::rungeKutta)
+    throw Error(ErrorKind::scene, "Runge-Kutta is there for its accuracy, which contacts in single precision would spoil.",
+                "choose another integrator, or leave out precision = \"mixed\"");
+}
+
+void checkPrecision(const Model& model) {
+  if (model.precision != Precision::mixed) return;
+  checkPrecision(model.precision, model.contact, model.integrator);
+  for (const Grain& grain : model.grains) checkSingleRange(grain.radius, grain.radius);
+  for (const Stream& stream : model.streams) checkSingleRange(stream.radii.smallest(), stream.radii.largest());
+}
+
 }  // namespace tsubu::sim

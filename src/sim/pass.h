@@ -88,4 +88,9 @@ void checkContinuous(const Model& model);
 /// The passes that this model asks for, in the order of the step.
 std::vector<std::unique_ptr<ForcePass>> makePasses(const Model& model);
 
+/// Throws Error(scene) when contacts between grains are to be computed in single precision, and these laws or this integrator cannot.
+void checkPrecision(Precision precision, const ContactChoice& contact, Integrator integrator);
+/// The same for all of the model, radii included.
+void checkPrecision(const Model& model);
+
 }  // namespace tsubu::sim

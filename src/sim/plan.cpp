@@ -41,6 +41,7 @@ Plan Simulation::plan(const Model& model) {
   const bool periodic = std::find(model.periodic.begin(), model.periodic.end(), true) != model.periodic.end();
   item(periodic, "periodic domain");
   item(model.continuous, "continuous collisions");
+  if (model.precision == Precision::mixed) item(true, "contacts between grains in single precision");
   item(model.ledger, "energy ledger");
   item(model.contactForces, "diagnostics");
 

@@ -23,6 +23,9 @@ constexpr std::uint64_t watchEvery = 64, watchEveryWithLedger = 16;
 // Grains that a cache of some 16 MB holds: asking for rows ahead of time pays beyond, and costs a little below.
 constexpr std::size_t fitsCache = 60'000;
 
+// Few, so that what a block works on stays with its thread; enough that no thread waits long for another.
+constexpr int blocksPerThread = 4;
+
 // Neighbour lists: skins in terms of how far the fastest grain moves in a step, bounded in terms of the smallest radius.
 // Some grains may fall while the others hardly move: the bounds keep them from filling everybody's lists.
 constexpr double outerSteps = 120, innerSteps = 3;
@@ -40,8 +43,10 @@ Simulation::Impl::Impl(Model given, int threads)
       walls(model.walls, traits),
       moving(wallsUnderLoad(model)),
       passes(makePasses(model)),
-      stages(static_cast<std::size_t>(threads)) {
+      stages(static_cast<std::size_t>(threads)),
+      singleStages(model.precision == Precision::mixed ? static_cast<std::size_t>(threads) : 0) {
   checkIntegrator(model);
+  checkPrecision(model);
   checkRotation(model);
   checkContinuous(model);
   prepareLaws();
@@ -119,7 +124,7 @@ void Simulation::Impl::prepareState() {
 }
 
 PassContext Simulation::Impl::context(PairClass pairClass, bool oneClass) {
-  return {state.rows.data(), state.forces.data(),           state.material.data(), model.materials.size(),
+  return {state.rows.data(), state.forces.data(), state.material.data(), model.materials.size(),
           oneClass ? constants.of(pairClass.first) : constants.values.data(), stepOf(), observed, state.size() > fitsCache};
 }
 
@@ -158,7 +163,7 @@ void Simulation::Impl::computeForces(For whom) {
   if (gravity.changes() && model.ledger) gravity.settle(momentOfMass());
 
   const bool watched = steps < watchEvery || steps % (model.ledger ? watchEveryWithLedger : watchEvery) == 0;
-  accountsKnown = model.ledger || watched;
+  accountsKnown = model.ledger;
   observed = watched || whom == For::observer;
   if (rungeKutta) rungeKutta->keepMemory(pairs, walls);
   evaluateContacts(whom);
@@ -181,12 +186,23 @@ bool Simulation::Impl::contactsActAlone() const {
   return passes.empty() && moving.empty() && !rungeKutta && !pairs.hasImages() && firstArrival == state.nextId;
 }
 
-// Forces of all contacts, with what they put into the accounts (`last`). A slab writes to itself and the next one: even slabs first, then
-// odd ones. After an odd slab it and the next one are complete, and nobody reads them any more: where contacts act alone, a step
-// moves them then, while they lie in the cache.
+// Forces of all contacts, with what they put into the accounts (`last`). A slab writes to itself and the next one, so an odd slab waits for
+// its even neighbours: whatever the threads do, a grain gets the forces of its even slab first. After an odd slab it and the next one are
+// complete, and nobody reads them any more: where contacts act alone, a step moves them then.
+// A thread takes a block of slabs and does an odd one as soon as it may, while its neighbours lie in the cache; those between two blocks are
+// left for the end.
 void Simulation::Impl::evaluateContacts(For whom) {
+  if (model.precision == Precision::mixed)
+    evaluateContactsIn<float>(whom, singleStages);
+  else
+    evaluateContactsIn<double>(whom, stages);
+  if (pairs.hasImages()) team.run(slabs.count(), [&](int slab, int) { pairs.foldImages(state, slab); });
+}
+
+template <class Real>
+void Simulation::Impl::evaluateContactsIn(For whom, std::vector<StageIn<Real>>& pairStages) {
   walls.settle();
-  const auto onPairs = pairKernel(law, {classes.grains.alike, accountsKnown});
+  const auto onPairs = pairKernel<Real>(law, {classes.grains.alike, accountsKnown});
   const auto onWalls = wallKernel(law, {classes.walls.alike, accountsKnown});
   const PassContext grainsWorld = context(classes.grains, onPairs.oneClass), wallsWorld = context(classes.walls, onWalls.oneClass);
   const int count = slabs.count();
@@ -196,7 +212,7 @@ void Simulation::Impl::evaluateContacts(For whom) {
   const auto evaluate = [&](int slab, int thread) {
     const auto s = static_cast<std::size_t>(slab);
     SlabPairs& list = pairs.slabs()[s];
-    Stage& stage = stages[static_cast<std::size_t>(thread)];
+    StageIn<Real>& stage = pairStages[static_cast<std::size_t>(thread)];
     Profile::Lap lap(profile, ProfilePart::pairs, thread);
     PairLists::refreshImages(state, list);
     const PairRange range{list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.data(), list.stride,
@@ -206,18 +222,27 @@ void Simulation::Impl::evaluateContacts(For whom) {
     else
       onPairs.kernel(grainsWorld, range, stage, last[s]);
     lap.next(ProfilePart::walls);
-    walls.evaluateSlab(slab, wallsWorld, onWalls.kernel, accountsKnown, stage, last[s], noting ? &acting[s] : nullptr);
+    walls.evaluateSlab(slab, wallsWorld, onWalls.kernel, accountsKnown, stages[static_cast<std::size_t>(thread)], last[s], noting ? &acting[s] : nullptr);
   };
   moved = whom == For::step && contactsActAlone();
   motions.assign(static_cast<std::size_t>(count), Motion{});
-  team.run((count + 1) / 2, [&](int task, int thread) { evaluate(2 * task, thread); });
-  team.run((count + 1) / 2, [&](int task, int thread) {
-    if (2 * task + 1 < count) evaluate(2 * task + 1, thread);
-    if (!moved) return;
-    if (task == 0) moveSlab(0, thread);
-    for (int slab = 2 * task + 1; slab < std::min(2 * task + 3, count); ++slab) moveSlab(slab, thread);
+  const auto finish = [&](int odd, int thread) {
+    evaluate(odd, thread);
+    for (int slab = odd; moved && slab < std::min(odd + 2, count); ++slab) moveSlab(slab, thread);
+  };
+  const int blocks = std::clamp(blocksPerThread * team.threads(), 1, (count + 1) / 2), pairsOfSlabs = ((count + 1) / 2 + blocks - 1) / blocks;
+  const auto firstOf = [&](int block) { return std::min(2 * pairsOfSlabs * block, count); };
+  team.run(blocks, [&](int block, int thread) {
+    for (int even = firstOf(block); even < firstOf(block + 1); even += 2) {
+      evaluate(even, thread);
+      if (even > firstOf(block)) finish(even - 1, thread);
+    }
+    if (moved && block == 0) moveSlab(0, thread);
   });
-  if (pairs.hasImages()) team.run(count, [&](int slab, int) { pairs.foldImages(state, slab); });
+  team.run(blocks, [&](int block, int thread) {
+    const int end = firstOf(block + 1) - 1;
+    if (end % 2 == 1 && end > firstOf(block)) finish(end, thread);
+  });
 }
 
 // Adds a share of what the last evaluation dissipated to the totals.

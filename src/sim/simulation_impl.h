@@ -73,6 +73,7 @@ class Simulation::Impl {
   std::vector<std::unique_ptr<ForcePass>> passes;  ///< beside contacts
   std::optional<RungeKutta> rungeKutta;        ///< when it is the integrator
   std::vector<Stage> stages;                   ///< one per thread
+  std::vector<StageIn<float>> singleStages;    ///< of pairs, with mixed precision
   Profile profile;
   std::vector<Accounts> last;                  ///< one per slab: this step's
   std::vector<std::vector<ActingContact>> acting;  ///< one per slab: the contacts of the present instant, noted for an observer
@@ -146,6 +147,8 @@ class Simulation::Impl {
   void book(double share);
   StepOf stepOf() const;
   void evaluateContacts(For whom);
+  template <class Real>
+  void evaluateContactsIn(For whom, std::vector<StageIn<Real>>& pairStages);
   void move();
   bool contactsActAlone() const;
   void moveSlab(int slab, int thread);

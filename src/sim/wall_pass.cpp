@@ -298,8 +298,8 @@ void WallPass::putColumns(SlabWalls& slab, const WallGroup& group, std::int32_t 
   if (batch.account) {
     batch.wallVelocity[k] = velocity;
     batch.wallSpin[k] = twist.angularVelocity;
-    s.smallerRadius[k] = row.radius;
   }
+  s.smallerRadius[k] = row.radius;
   s.weight[k] = weight;
   s.pairClass[k] = static_cast<std::int32_t>(context.material[group.grain] * context.materials + wall.material);
   const WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(candidateIndex)];

@@ -161,6 +161,8 @@ std::string nameOf(sim::Integrator integrator) {
   return "velocity_verlet";
 }
 
+std::string nameOf(sim::Precision precision) { return precision == sim::Precision::mixed ? "mixed" : "double"; }
+
 // Laws of a family other than the scene's, and other than none at all: that is a matter of features.
 std::vector<std::string> othersIn(std::string_view family, const scene::Scene& scene) {
   std::vector<std::string> names;
@@ -202,6 +204,7 @@ scene::Overrides overridesOf(const Setting& setting, const scene::Scene& scene) 
   if (setting.tangential == "viscous" && !scene.pairs.all[sim::Property::tangentialDampingRate])
     writer.set({"pairs", std::string(sim::infoOf(sim::Property::tangentialDampingRate).key)}, 1e9);
   if (setting.tension) writer.set({"contact", "tension"}, *setting.tension ? "true" : "false");
+  if (setting.precision) writer.set({"simulation", "precision"}, nameOf(*setting.precision));
   if (setting.rotation) writer.set({"contact", "rotation"}, *setting.rotation ? "true" : "false");
   if (setting.coarsening != 1) writer.coarsen(setting.coarsening);
   if (setting.softening * writer.stiffness != 1) writer.scaleStiffness(setting.softening * writer.stiffness);
@@ -224,6 +227,7 @@ std::string labelOf(const Setting& s) {
   if (s.twisting && !(s.tangential == "none")) add(*s.twisting == "none" ? "no twisting resistance" : *s.twisting + " twisting");
   if (s.tension) add(*s.tension ? "tension" : "no tension");
   if (s.rotation) add(*s.rotation ? "rotation" : "no rotation");
+  if (s.precision) add(nameOf(*s.precision) + " precision");
   if (s.skin) add(fmt::format("skin {:.3g} r", *s.skin));
   if (s.equalGrains) add("equal grains");
   return label;
@@ -237,7 +241,7 @@ double costFactor(const Setting& s, const scene::Scene& scene, double base) {
 }
 
 const std::vector<std::string>& axisNames() {
-  static const std::vector<std::string> names{"step", "stiffness", "integrator", "grains", "law", "memory", "rolling", "skin"};
+  static const std::vector<std::string> names{"step", "stiffness", "integrator", "grains", "law", "memory", "rolling", "precision", "skin"};
   return names;
 }
 
@@ -261,6 +265,10 @@ Axis axisOf(const std::string& name, const scene::Scene& scene) {
   if (name == "law") return byName(name, othersIn("normal", scene), with(&Setting::normal));
   if (name == "memory") return byName(name, othersIn("tangential", scene), with(&Setting::tangential));
   if (name == "rolling") return byName(name, othersIn("rolling", scene), with(&Setting::rolling));
+  if (name == "precision") {
+    const bool mixed = scene.simulation.precision == sim::Precision::mixed;
+    return {name, {}, {{1, with(&Setting::precision)(mixed ? sim::Precision::full : sim::Precision::mixed)}}};
+  }
   std::vector<std::string> known = axisNames();
   known.emplace_back("picture");
   const auto nearest = nearestName(name, known);
@@ -310,6 +318,7 @@ Setting combined(const Setting& first, const Setting& second) {
   if (second.twisting) both.twisting = second.twisting;
   if (second.tension) both.tension = second.tension;
   if (second.rotation) both.rotation = second.rotation;
+  if (second.precision) both.precision = second.precision;
   if (second.skin) both.skin = second.skin;
   both.softening *= second.softening;
   both.coarsening *= second.coarsening;

@@ -16,6 +16,7 @@ struct Setting {
   std::optional<std::string> integrator;
   std::optional<std::string> normal, tangential, rolling, twisting;  ///< laws
   std::optional<bool> tension, rotation;
+  std::optional<sim::Precision> precision;
   double softening = 1;        ///< factor on the stiffness of all contacts
   double coarsening = 1;       ///< factor on the radii, with f⁻³ times as many grains
   std::optional<double> skin;  ///< in smallest radii

@@ -3,7 +3,7 @@
 
 usage: kernels_are_vectors.py OBJDUMP OBJECT...
 
-OBJECT: what a kernel file was compiled to, with the name of its instruction set (kernel_avx2.cpp.o, kernel_avx512.cpp.o). Every pass over
+OBJECT: what a kernel file was compiled to, with the name of its instruction set (kernel_avx2.cpp.o, kernel_single_avx512.cpp.o). Every pass over
 contacts must have a fair share of operations on whole vectors of that width: those on single numbers are for the contacts that
 are left over at the end of a loop, and every loop has both.
 """
@@ -13,10 +13,11 @@ import subprocess
 import sys
 
 WIDTH = {"avx2": "ymm", "avx512": "zmm"}
-LEAST = 0.2  # operations on vectors over operations on numbers: g++ writes the rest of a loop out up to four times
+# Operations on vectors over operations on numbers: g++ writes the rest of a loop out, which for single numbers may be twice as long.
+LEAST = {"d": 0.2, "s": 0.1}
 
 
-def scalar_passes(objdump, file, register):
+def scalar_passes(objdump, file, register, precision):
     """The passes of an object file that are not vector code, and how many passes there are."""
     listing = subprocess.run([objdump, "-d", "-C", "--no-show-raw-insn", file], capture_output=True, text=True, check=True).stdout
     operations = {}
@@ -26,21 +27,22 @@ def scalar_passes(objdump, file, register):
             name = head[1] if re.search(r"\b(passPairs|passWalls|passBonds|findDirections|findSlip)<", head[1]) else None
             if name:
                 operations[name] = [0, 0]
-        elif name and re.search(rf"\bv(mul|add|sub|div|sqrt)pd\b.*{register}", line):
+        elif name and re.search(rf"\bv(mul|add|sub|div|sqrt)p{precision}\b.*{register}", line):
             operations[name][0] += 1
-        elif name and re.search(r"\bv(mul|add|sub|div|sqrt)sd\b", line):
+        elif name and re.search(rf"\bv(mul|add|sub|div|sqrt)s{precision}\b", line):
             operations[name][1] += 1
-    return [(name, *count) for name, count in operations.items() if count[0] < LEAST * count[1]], len(operations)
+    return [(name, *count) for name, count in operations.items() if count[0] < LEAST[precision] * count[1]], len(operations)
 
 
 def main(objdump, *files):
     failed = False
     for file in files:
-        isa = next((isa for isa in WIDTH if f"kernel_{isa}." in file), None)
-        if not isa:
+        kernel = re.search(rf"kernel_(single_)?({'|'.join(WIDTH)})\.", file)
+        if not kernel:
             continue
-        scalar, passes = scalar_passes(objdump, file, WIDTH[isa])
-        print(f"{isa}: {passes} passes, {len(scalar)} of them scalar")
+        isa, precision = kernel[2], "s" if kernel[1] else "d"
+        scalar, passes = scalar_passes(objdump, file, WIDTH[isa], precision)
+        print(f"{isa}, {'single' if kernel[1] else 'double'}: {passes} passes, {len(scalar)} of them scalar")
         for name, vectors, numbers in scalar:
             print(f"  {vectors} on vectors, {numbers} on numbers:", name.replace("tsubu::sim::", "").replace("(anonymous namespace)::", ""))
         failed = failed or scalar or passes == 0

@@ -86,6 +86,15 @@ TEST(SameBits, ForAnyNumberOfThreads) {
   }
 }
 
+TEST(SameBits, InMixedPrecision) {
+  Scenario s = busy(Integrator::velocityVerlet);
+  s.model.precision = Precision::mixed;
+  const Outcome one = run(s, 1);
+  for (const int threads : {2, 5}) expectSame(run(s, threads), one, std::to_string(threads) + " threads");
+  s.model.ledger = false;
+  expectSame(run(s, 1), one, "without ledger");
+}
+
 TEST(SameBits, ForEveryInstructionSet) {
   const std::string before(kernels().isa);
   const Scenario s = busy(Integrator::velocityVerlet);

@@ -104,6 +104,47 @@ TEST(EveryLaw, HasOneHash) {
   useKernels(widest);
 }
 
+// Contacts in single precision: the same bits everywhere too. The same number is added to one partner and taken from the other, in double:
+// linear momentum is kept to the last bit of double all the same, angular momentum and the account to those of single numbers.
+TEST(EveryLaw, MixedPrecisionKeepsMomentaAndAccountAndHasOneHash) {
+  const std::string widest(kernels().isa);
+  int laws = 0;
+  for (std::size_t index = 0; index < lawCount(); ++index) {
+    const LawFunctions& law = lawFunctions(index);
+    if (!law.objection.empty() || !hasSingleKernel(index)) continue;
+    SCOPED_TRACE(fmt::format("{} {} {} {}", law.names[0], law.names[1], law.names[2], law.names[3]));
+    ++laws;
+    for (const bool several : {false, true}) {
+      Model model = cloud(law, several);
+      Simulation full(model, 1);
+      model.precision = Precision::mixed;
+      std::vector<std::uint64_t> hashes;
+      for (const Kernels& set : availableKernels()) {
+        useKernels(set.isa);
+        for (const int threads : {1, 3}) {
+          Simulation sim(model, threads);
+          sim.advance(300);
+          hashes.push_back(sim.stateHash());
+        }
+      }
+      for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]) << (several ? "several materials" : "one material");
+      Simulation sim(model, 1);
+      const Ledger before = sim.ledger();
+      sim.advance(6000);
+      full.advance(6000);
+      const Ledger after = sim.ledger();
+      const double momentum = std::sqrt(2 * before.kinetic() * 1e-3), angular = momentum * 0.01;
+      EXPECT_NE(sim.stateHash(), full.stateHash());
+      EXPECT_LT((after.momentum - before.momentum).norm(), 1e-12 * momentum);
+      EXPECT_LT((after.angularMomentumRest - before.angularMomentumRest).norm(), 1e-5 * angular);
+      EXPECT_LT(after.residualFraction(), 2e-3);
+      EXPECT_NEAR(after.kinetic(), full.ledger().kinetic(), 1e-3 * before.kinetic());
+    }
+  }
+  EXPECT_GE(laws, 8);
+  useKernels(widest);
+}
+
 // Materials that are alike but have different names go through the loop for several classes when another pair differs: the same bits
 // as through the loop for one.
 TEST(EveryLaw, SeveralClassesAreOneWhenAlike) {

@@ -4,13 +4,15 @@
 
 namespace tsubu::sim {
 
-ActingContact contactIn(const Stage& s, int q, std::int32_t first, std::int32_t second, bool rolls) {
-  const double distance = s.radiusSum[q] - s.overlap[q];  // the kernel has left the direction in (dx, dy, dz)
+template <class Real>
+ActingContact contactIn(const StageIn<Real>& s, int q, std::int32_t first, std::int32_t second, bool rolls) {
+  const Real distance = s.radiusSum[q] - s.overlap[q];  // the kernel has left the direction in (dx, dy, dz)
   return {first, second, distance * Vec3(s.dx[q], s.dy[q], s.dz[q]), Vec3(s.fx[q], s.fy[q], s.fz[q]),
           rolls ? Vec3(s.mx[q], s.my[q], s.mz[q]) : Vec3(Vec3::Zero())};
 }
 
-void passNoting(PairKernel kernel, const PassContext& context, const PairRange& range, bool rolls, Stage& stage, Accounts& accounts,
+template <class Real>
+void passNoting(PairKernelIn<Real> kernel, const PassContext& context, const PairRange& range, bool rolls, StageIn<Real>& stage, Accounts& accounts,
                 std::vector<ActingContact>& acting) {
   for (std::int64_t first = 0; first < range.count; first += chunkSize) {
     PairRange chunk = range;
@@ -22,5 +24,9 @@ void passNoting(PairKernel kernel, const PassContext& context, const PairRange& 
       if (stage.overlap[q] > 0) acting.push_back(contactIn(stage, q, chunk.i[q], chunk.j[q], rolls));
   }
 }
+
+template ActingContact contactIn(const StageIn<double>&, int, std::int32_t, std::int32_t, bool);
+template void passNoting(PairKernelIn<double>, const PassContext&, const PairRange&, bool, StageIn<double>&, Accounts&, std::vector<ActingContact>&);
+template void passNoting(PairKernelIn<float>, const PassContext&, const PairRange&, bool, StageIn<float>&, Accounts&, std::vector<ActingContact>&);
 
 }  // namespace tsubu::sim

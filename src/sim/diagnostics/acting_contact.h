@@ -25,10 +25,12 @@ struct ActingContact {
 };
 
 /// What the stage holds of contact q after a kernel has run.
-ActingContact contactIn(const Stage& stage, int q, std::int32_t first, std::int32_t second, bool rolls);
+template <class Real>
+ActingContact contactIn(const StageIn<Real>& stage, int q, std::int32_t first, std::int32_t second, bool rolls);
 
 /// Runs the kernel over a range, in the chunks that it would take anyway and to the same bits, and adds the contacts that touch.
-void passNoting(PairKernel kernel, const PassContext& context, const PairRange& range, bool rolls, Stage& stage, Accounts& accounts,
+template <class Real>
+void passNoting(PairKernelIn<Real> kernel, const PassContext& context, const PairRange& range, bool rolls, StageIn<Real>& stage, Accounts& accounts,
                 std::vector<ActingContact>& acting);
 
 }  // namespace tsubu::sim

@@ -58,8 +58,15 @@ Chosen<Kernel> choose(Kernel (*Kernels::*pass)(std::size_t, PassKind), std::size
 }
 }  // namespace
 
-Chosen<PairKernel> pairKernel(std::size_t law, PassKind kind) { return choose(&Kernels::pairPass, law, kind); }
+template <>
+Chosen<PairKernel> pairKernel<double>(std::size_t law, PassKind kind) { return choose(&Kernels::pairPass, law, kind); }
+template <>
+Chosen<PairKernelIn<float>> pairKernel<float>(std::size_t law, PassKind kind) {
+  return {kernels().singlePairPass(law, kind), kind.oneClass};
+}
 Chosen<WallKernel> wallKernel(std::size_t law, PassKind kind) { return choose(&Kernels::wallPass, law, kind); }
+
+bool hasSingleKernel(std::size_t law) { return kernels_portable.singlePairPass(law, {true, false}) != nullptr; }
 
 void useKernels(std::string_view isa) {
   std::vector<std::string> known;

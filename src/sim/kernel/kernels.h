@@ -33,7 +33,7 @@ struct PassContext {
   std::size_t materials;
   const double* pairs;            ///< constants of materials × materials, or of the one class
   StepOf step;
-  bool observed = false;          ///< with accounts: also what springs store and how deep contacts are
+  bool observed = false;          ///< tell how deep contacts are and, with accounts, what springs store
   bool prefetch = false;          ///< the grains are more than the cache holds: ask for partners ahead of time
 };
 
@@ -43,8 +43,10 @@ struct PassKind {
   bool accounts;
 };
 
-/// Adds the forces of a range of pairs to the force rows.
-using PairKernel = void (*)(const PassContext&, const PairRange&, Stage&, Accounts&);
+/// Adds the forces of a range of pairs to the force rows; `Real`: what the contacts are computed in.
+template <class Real>
+using PairKernelIn = void (*)(const PassContext&, const PairRange&, StageIn<Real>&, Accounts&);
+using PairKernel = PairKernelIn<double>;
 /// Computes `count` wall contacts that lie in the stage, memory included.
 using WallKernel = void (*)(const PassContext&, int count, Stage&, Accounts&);
 
@@ -84,6 +86,7 @@ using NearKernel = std::int64_t (*)(const GrainRow* rows, const std::int32_t* i,
 struct Kernels {
   std::string_view isa;
   PairKernel (*pairPass)(std::size_t law, PassKind kind);
+  PairKernelIn<float> (*singlePairPass)(std::size_t law, PassKind kind);
   WallKernel (*wallPass)(std::size_t law, PassKind kind);
   BondKernel (*bonds)(BondDamping, bool breakable);       ///< all of them
   MoveKernel (*move)(Integrator scheme, bool turns);      ///< all but Runge–Kutta
@@ -97,8 +100,12 @@ struct Chosen {
   bool oneClass;
 };
 /// The loop to use. Laws that are not common have only one, portable and for several classes.
-Chosen<PairKernel> pairKernel(std::size_t law, PassKind kind);
+template <class Real>
+Chosen<PairKernelIn<Real>> pairKernel(std::size_t law, PassKind kind);
 Chosen<WallKernel> wallKernel(std::size_t law, PassKind kind);
+
+/// Has the law loops in single precision? Laws that are not common have none.
+bool hasSingleKernel(std::size_t law);
 
 /// The kernels that this processor can run, the portable ones first, the widest last.
 const std::vector<Kernels>& availableKernels();

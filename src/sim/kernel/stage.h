@@ -13,13 +13,15 @@ inline constexpr int chunkSize = 128;
 /// Most doubles that any law keeps for a pair of materials.
 inline constexpr int mostConstants = 16;
 
-/// Column by column, one entry per contact of the chunk.
-struct alignas(64) Stage {
-  using Column = double[chunkSize];
+/// Column by column, one entry per contact of the chunk. `Real`: what contacts are computed in.
+template <class Real>
+struct alignas(64) StageIn {
+  using Column = Real[chunkSize];
 
   // In, for every law: differences i − j and sums i + j of the two rows. (dx, dy, dz) becomes the direction n.
   Column dx, dy, dz, radiusSum;
   Column dvx, dvy, dvz, inverseMassSum;
+  Column gap;               // single precision: (r_i + r_j)² − |x_ij|², subtracted in double: the overlap is a small difference
   // In, for laws with friction.
   Column sx, sy, sz;        // r_i ω_i + r_j ω_j
   Column ox, oy, oz;        // walls: the mean spin ½(ω_i + Ω)
@@ -44,9 +46,10 @@ struct alignas(64) Stage {
   // Out, when the ledger is kept: see Accounts.
   Column account[8];
 
-  // Memory of wall contacts, gathered here; pairs are read in place.
+  // Memory of wall contacts, and of pairs in another precision than that of the lists, gathered here; other pairs' is read in place.
   Column memory[mostMemory];
 };
+using Stage = StageIn<double>;
 
 /// What the ledger takes from a pass. Eight lanes, whatever the width of the vectors: the order of the sums is fixed.
 struct Accounts {

@@ -34,7 +34,7 @@ std::size_t indexIn(const LawFamily& family, const std::string& name) {
 template <class T>
 T fromDoubles(const double* from) {
   T value{};
-  if constexpr (doublesIn<T> > 0) std::memcpy(&value, from, sizeof(T));
+  if constexpr (numbersIn<T> > 0) std::memcpy(&value, from, sizeof(T));
   return value;
 }
 
@@ -42,7 +42,7 @@ template <class Law>
 struct AsFunctions {
   using Pair = typename Law::Pair;
   using Memory = typename Law::Memory;
-  static_assert(doublesIn<Memory> == Law::stateSize && Law::stateSize <= mostMemory);
+  static_assert(numbersIn<Memory> == Law::stateSize && Law::stateSize <= mostMemory);
 
   static void prepare(const PairValues& values, bool tension, bool rescales, double* constants) {
     const Pair pair = Law::prepare(values, tension, rescales);
@@ -81,7 +81,7 @@ LawFunctions functionsOf() {
     using F = AsFunctions<Law>;
     f.traits = {Law::stateSize, Law::tangentialSize, Law::rollingSize, Law::odd,
                 Law::turns, Law::rolls, Law::readsRadius, Law::Tangential::passive, Law::Tangential::withinLimit};
-    f.constants = static_cast<std::size_t>(doublesIn<typename Law::Pair>);
+    f.constants = static_cast<std::size_t>(numbersIn<typename Law::Pair>);
     f.prepare = &F::prepare, f.evaluate = &F::evaluate, f.stored = &F::stored, f.modes = &F::modes;
   }
   return f;

@@ -71,20 +71,20 @@ std::size_t lawIndex(const ContactChoice& choice);
 
 /// What must be known of a law without its type.
 struct LawTraits {
-  int stateSize;    ///< doubles of memory per contact
+  int stateSize;                    ///< doubles of memory per contact
   int tangentialSize, rollingSize;  ///< of these, in this order; the rest resists twisting
-  unsigned odd;     ///< components that change sign when i and j change places, as bits
+  unsigned odd;                     ///< components that change sign when i and j change places, as bits
   bool turns, rolls, readsRadius;
-  bool passive;     ///< never gives more energy than it got
-  bool withinLimit; ///< friction stays within Coulomb's limit
+  bool passive;      ///< never gives more energy than it got
+  bool withinLimit;  ///< friction stays within Coulomb's limit
 };
 
 /// A law as plain functions of one contact: for observers, for the time step, for tests. The kernels use the type.
 struct LawFunctions {
-  std::string_view names[4];     ///< in the order of the families
-  std::string_view objection;    ///< empty when the combination makes sense; nothing below is to be called otherwise
+  std::string_view names[4];   ///< in the order of the families
+  std::string_view objection;  ///< empty when the combination makes sense; nothing below is to be called otherwise
   LawTraits traits;
-  std::size_t constants;         ///< doubles in Law::Pair
+  std::size_t constants;  ///< doubles in Law::Pair
   void (*prepare)(const PairValues& values, bool tension, bool rescales, double* constants);
   /// One evaluation; `memory` (stateSize doubles) is brought up to date.
   ContactForce (*evaluate)(const double* constants, const Contact& contact, StepOf step, double* memory, ContactEnergy& energy);

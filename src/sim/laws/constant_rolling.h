@@ -20,21 +20,25 @@ struct ConstantRolling {
   static constexpr std::string_view sentence = "Constant torque against the relative spin (R1, R2); no memory, so a pile creeps.";
   static constexpr std::array reads{need(Property::rollingFriction)};
   static constexpr bool acts = true, common = false;
-  template <bool growing>
-  using Memory = NoMemory<Family::rolling>;
+  template <bool growing, class Real>
+  using MemoryIn = NoMemory<Family::rolling>;
 
-  struct Pair {
-    double rollingFriction;  // μ_r
+  template <class Real>
+  struct PairIn {
+    Real rollingFriction;  // μ_r
   };
+  using Pair = PairIn<double>;
   static Pair prepare(const PairValues& values) { return {values[Property::rollingFriction]}; }
   /// Bounded by R2 in any step.
   static ContactMode mode(const Pair&, double, double) { return {}; }
 
-  TSUBU_LAW RollingMoment moment(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, NoMemory<Family::rolling>&) {
-    const double spin = norm(c.relativeSpin);
-    const double limit = p.rollingFriction * c.effectiveRadius * std::abs(normal.force);
-    const double stop = shareOfStop * spin / (c.inverseSpinInertia * step.dt);
-    const V3 resistance = (smaller(limit, stop) / larger(spin, tiny)) * c.relativeSpin;
+  template <class Real>
+  TSUBU_LAW RollingMomentIn<Real> moment(const PairIn<Real>& p, const ContactIn<Real>& c, const NormalForceIn<Real>& normal,
+                                         StepIn<Real> step, NoMemory<Family::rolling>&) {
+    const Real spin = norm(c.relativeSpin);
+    const Real limit = p.rollingFriction * c.effectiveRadius * std::abs(normal.force);
+    const Real stop = shareOfStop<Real> * spin / (c.inverseSpinInertia * step.dt);
+    const V3In<Real> resistance = (smaller(limit, stop) / larger(spin, tinyIn<Real>)) * c.relativeSpin;
     return {-resistance, 0, 0, dot(resistance, c.relativeSpin) * step.dt};
   }
 };

@@ -22,14 +22,16 @@ struct ElasticPlasticRolling {
   static constexpr std::string_view sentence = "Elastic–plastic spring and dashpot (type C, R3–R5): a pile stands still.";
   static constexpr std::array reads{need(Property::rollingFriction), mayRead(Property::rollingDamping)};
   static constexpr bool acts = true, common = true;
-  template <bool growing>
-  using Memory = std::conditional_t<growing, GrowingVectorMemory, VectorMemory>;
+  template <bool growing, class Real>
+  using MemoryIn = std::conditional_t<growing, GrowingVectorMemoryIn<Real>, VectorMemoryIn<Real>>;
 
-  struct Pair {
-    double rollingFriction;  // μ_r
-    double stiffnessRatio;   // k_r/(k_n R*²)
-    double dampingRatio;     // ζ_r
+  template <class Real>
+  struct PairIn {
+    Real rollingFriction;  // μ_r
+    Real stiffnessRatio;   // k_r/(k_n R*²)
+    Real dampingRatio;     // ζ_r
   };
+  using Pair = PairIn<double>;
 
   static Pair prepare(const PairValues& values) {
     const double mu = values[Property::rollingFriction];
@@ -42,36 +44,40 @@ struct ElasticPlasticRolling {
     return {stiffness, 2 * p.dampingRatio * std::sqrt(3.5 * stiffness)};
   }
 
-  TSUBU_LAW double stiffness(const Pair& p, const Contact& c, double normalStiffness) {
+  template <class Real>
+  TSUBU_LAW Real stiffness(const PairIn<Real>& p, const ContactIn<Real>& c, Real normalStiffness) {
     return p.stiffnessRatio * normalStiffness * c.effectiveRadius * c.effectiveRadius;
   }
 
   /// Energy that a memory holds, J.
-  TSUBU_LAW double stored(const Pair& p, const Contact& c, double normalStiffness, const VectorMemory& memory) {
-    return 0.5 / larger(stiffness(p, c, normalStiffness), tiny) * norm2(memory.spring);
+  template <class Real>
+  TSUBU_LAW Real stored(const PairIn<Real>& p, const ContactIn<Real>& c, Real normalStiffness, const VectorMemoryIn<Real>& memory) {
+    return Real(0.5) / larger(stiffness(p, c, normalStiffness), tinyIn<Real>) * norm2(memory.spring);
   }
-  TSUBU_LAW double stored(const Pair&, const Contact&, double, const GrowingVectorMemory& memory) {
-    return 0.5 / larger(memory.stiffness, tiny) * norm2(memory.spring);
+  template <class Real>
+  TSUBU_LAW Real stored(const PairIn<Real>&, const ContactIn<Real>&, Real, const GrowingVectorMemoryIn<Real>& memory) {
+    return Real(0.5) / larger(memory.stiffness, tinyIn<Real>) * norm2(memory.spring);
   }
 
-  template <class M>
-  TSUBU_LAW RollingMoment moment(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, M& memory) {
-    const double k = stiffness(p, c, normal.stiffness);
-    const double inertia = 3.5 / c.inverseSpinInertia;
-    const double damping = larger(2 * p.dampingRatio * std::sqrt(inertia * k), k * quieting(k * c.inverseSpinInertia, step));
-    const V3 rolling = c.relativeSpin - dot(c.relativeSpin, c.n) * c.n;
-    const Eased ease = eased(memory, k, 1.0);
-    const V3 before = ease.factor * memory.spring;
-    const V3 gain = (k * step.dt) * rolling;
-    const V3 trial = before + step.lead * gain;
-    const double limit = p.rollingFriction * c.effectiveRadius * std::abs(normal.force);
-    const double size2 = norm2(trial);
+  template <class Real, class M>
+  TSUBU_LAW RollingMomentIn<Real> moment(const PairIn<Real>& p, const ContactIn<Real>& c, const NormalForceIn<Real>& normal,
+                                         StepIn<Real> step, M& memory) {
+    const Real k = stiffness(p, c, normal.stiffness);
+    const Real inertia = Real(3.5) / c.inverseSpinInertia;
+    const Real damping = larger(2 * p.dampingRatio * std::sqrt(inertia * k), k * quieting(k * c.inverseSpinInertia, step));
+    const V3In<Real> rolling = c.relativeSpin - dot(c.relativeSpin, c.n) * c.n;
+    const Eased<Real> ease = eased(memory, k, Real(1));
+    const V3In<Real> before = ease.factor * memory.spring;
+    const V3In<Real> gain = (k * step.dt) * rolling;
+    const V3In<Real> trial = before + step.lead * gain;
+    const Real limit = p.rollingFriction * c.effectiveRadius * std::abs(normal.force);
+    const Real size2 = norm2(trial);
     const bool yields = size2 > limit * limit;
-    const double keep = yields ? shareOf(limit, size2) : 1.0;
+    const Real keep = yields ? shareOf(limit, size2) : Real(1);
     memory.spring = keep * (before + gain);
     setStiffness(memory, k);
-    const double active = yields ? 0.0 : damping, storedAfter = 0.5 / larger(k, tiny) * norm2(memory.spring);
-    const double work = (keep * dot(before + step.mean * gain, rolling) + active * norm2(rolling)) * step.dt;
+    const Real active = yields ? Real(0) : damping, storedAfter = Real(0.5) / larger(k, tinyIn<Real>) * norm2(memory.spring);
+    const Real work = (keep * dot(before + step.mean * gain, rolling) + active * norm2(rolling)) * step.dt;
     return {-keep * trial - active * rolling, ease.before, storedAfter, work - (storedAfter - ease.before)};
   }
 };

@@ -36,32 +36,41 @@ inline double effectiveModulus(const PairValues& values) {
 
 struct HertzNormal {
   static constexpr std::string_view name = "hertz";
-  static constexpr std::string_view sentence = "Hertz contact with a dashpot (N6–N8): stiffness from elastic moduli, growing with the overlap.";
+  static constexpr std::string_view sentence =
+      "Hertz contact with a dashpot (N6–N8): stiffness from elastic moduli, growing with the overlap.";
   static constexpr std::array reads{need(Property::youngModulus), need(Property::poissonRatio), need(Property::restitution)};
   static constexpr bool growing = true;
   static constexpr bool common = true;
 
-  struct Pair {
-    double twiceModulus;  // 2 E*
-    double damping;       // 2 √(5/6) ζ
-    double least;         // smallest force: 0, or −∞ with tension
+  template <class Real>
+  struct PairIn {
+    Real twiceModulus;  // 2 E*
+    Real damping;       // 2 √(5/6) ζ
+    Real least;         // smallest force: 0, or −∞ with tension
   };
+  using Pair = PairIn<double>;
 
   static Pair prepare(const PairValues& values, bool tension) {
     return {2 * effectiveModulus(values), 2 * std::sqrt(5.0 / 6.0) * dampingRatio(values[Property::restitution], tension),
             tension ? -std::numeric_limits<double>::infinity() : 0.0};
   }
 
-  static double stiffness(const Pair& p, double overlap, double effectiveRadius) { return p.twiceModulus * std::sqrt(effectiveRadius * overlap); }
+  static double stiffness(const Pair& p, double overlap, double effectiveRadius) {
+    return p.twiceModulus * std::sqrt(effectiveRadius * overlap);
+  }
   static double damping(const Pair& p, double effectiveMass, double stiffness) { return p.damping * std::sqrt(stiffness * effectiveMass); }
 
-  static bool readsRootMass(const Pair&) { return true; }
+  template <class Real>
+  static bool readsRootMass(const PairIn<Real>&) {
+    return true;
+  }
 
-  TSUBU_LAW NormalForce force(const Pair& p, const Contact& c, StepOf) {
-    const double stiffness = p.twiceModulus * std::sqrt(c.effectiveRadius * larger(c.overlap, 0.0));
-    const double perRoot = p.damping * c.rootMass, damping = perRoot * std::sqrt(stiffness);
-    const double elastic = (2.0 / 3.0) * stiffness * c.overlap;
-    return {larger(elastic - damping * c.separationSpeed, p.least), elastic, 0.4 * elastic * c.overlap, stiffness, damping, perRoot};
+  template <class Real>
+  TSUBU_LAW NormalForceIn<Real> force(const PairIn<Real>& p, const ContactIn<Real>& c, StepIn<Real>) {
+    const Real stiffness = p.twiceModulus * std::sqrt(c.effectiveRadius * larger(c.overlap, Real(0)));
+    const Real perRoot = p.damping * c.rootMass, damping = perRoot * std::sqrt(stiffness);
+    const Real elastic = Real(2.0 / 3.0) * stiffness * c.overlap;
+    return {larger(elastic - damping * c.separationSpeed, p.least), elastic, Real(0.4) * elastic * c.overlap, stiffness, damping, perRoot};
   }
 };
 

@@ -32,13 +32,15 @@ struct LinearNormal {
   static constexpr bool growing = false;  ///< does the stiffness depend on the overlap?
   static constexpr bool common = true;
 
-  struct Pair {
-    double stiffness;             // k_n
-    double perRootStiffness;      // 1/√k_n
-    double dampingPerRootMass;    // η_n/√m*, from restitution
-    double dampingPerMass;        // η_n/m*, from a rate
-    double least;                 // smallest force: 0, or −∞ with tension
+  template <class Real>
+  struct PairIn {
+    Real stiffness;           // k_n
+    Real perRootStiffness;    // 1/√k_n
+    Real dampingPerRootMass;  // η_n/√m*, from restitution
+    Real dampingPerMass;      // η_n/m*, from a rate
+    Real least;               // smallest force: 0, or −∞ with tension
   };
+  using Pair = PairIn<double>;
 
   static Pair prepare(const PairValues& values, bool tension) {
     Pair p{};
@@ -58,13 +60,17 @@ struct LinearNormal {
     return p.dampingPerRootMass * std::sqrt(effectiveMass) + p.dampingPerMass * effectiveMass;
   }
 
-  static bool readsRootMass(const Pair& p) { return p.dampingPerRootMass != 0; }
+  template <class Real>
+  static bool readsRootMass(const PairIn<Real>& p) {
+    return p.dampingPerRootMass != 0;
+  }
 
-  TSUBU_LAW NormalForce force(const Pair& p, const Contact& c, StepOf step) {
-    const double damping = p.dampingPerRootMass * c.rootMass + p.dampingPerMass * c.effectiveMass;
-    const double elastic = p.stiffness * c.overlap;
-    const double force = larger(elastic - damping * sampledSpeed(c, step), p.least);
-    return {force, elastic, 0.5 * elastic * c.overlap, p.stiffness, damping, damping * p.perRootStiffness};
+  template <class Real>
+  TSUBU_LAW NormalForceIn<Real> force(const PairIn<Real>& p, const ContactIn<Real>& c, StepIn<Real> step) {
+    const Real damping = p.dampingPerRootMass * c.rootMass + p.dampingPerMass * c.effectiveMass;
+    const Real elastic = p.stiffness * c.overlap;
+    const Real force = larger(elastic - damping * sampledSpeed(c, step), p.least);
+    return {force, elastic, Real(0.5) * elastic * c.overlap, p.stiffness, damping, damping * p.perRootStiffness};
   }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a contact may remember. A law names one of these; its doubles lie in the memory columns of the contact lists in this order. What
+// What a contact may remember. A law names one of these; its numbers lie in the memory columns of the contact lists in this order. What
 // points along the contact is carried with it (T3) before a law sees it.
 
 #include <cstddef>
@@ -15,64 +15,82 @@ enum class Family { tangential, rolling, twisting };
 template <Family>
 struct NoMemory {
   static constexpr unsigned odd = 0;
-  TSUBU_INLINE void carry(V3, double) {}
+  template <class Real>
+  TSUBU_INLINE void carry(V3In<Real>, Real) {}
   template <class F>
   TSUBU_INLINE void each(F&&) {}
 };
 
 /// The force (or moment) of a spring in the tangent plane, on j (the opposite of what acts on i).
-struct VectorMemory {
+template <class Real>
+struct VectorMemoryIn {
   static constexpr unsigned odd = 0b111;  ///< components that change sign when i and j change places
-  V3 spring;
-  TSUBU_INLINE void carry(V3 n, double frameAngle) { spring = carried(spring, n, frameAngle); }
+  V3In<Real> spring;
+  TSUBU_INLINE void carry(V3In<Real> n, Real frameAngle) { spring = carried(spring, n, frameAngle); }
   template <class F>
-  TSUBU_INLINE void each(F&& f) { f(spring.x), f(spring.y), f(spring.z); }
+  TSUBU_INLINE void each(F&& f) {
+    f(spring.x), f(spring.y), f(spring.z);
+  }
 };
+using VectorMemory = VectorMemoryIn<double>;
 
 /// The same where the stiffness of the spring varies: with the stiffness that the memory belongs to.
-struct GrowingVectorMemory {
+template <class Real>
+struct GrowingVectorMemoryIn {
   static constexpr unsigned odd = 0b0111;
-  V3 spring;
-  double stiffness;
-  TSUBU_INLINE void carry(V3 n, double frameAngle) { spring = carried(spring, n, frameAngle); }
+  V3In<Real> spring;
+  Real stiffness;
+  TSUBU_INLINE void carry(V3In<Real> n, Real frameAngle) { spring = carried(spring, n, frameAngle); }
   template <class F>
-  TSUBU_INLINE void each(F&& f) { f(spring.x), f(spring.y), f(spring.z), f(stiffness); }
+  TSUBU_INLINE void each(F&& f) {
+    f(spring.x), f(spring.y), f(spring.z), f(stiffness);
+  }
 };
+using GrowingVectorMemory = GrowingVectorMemoryIn<double>;
 
 /// A spring about n: the moment is n times this for both orders of i and j.
-struct ScalarMemory {
+template <class Real>
+struct ScalarMemoryIn {
   static constexpr unsigned odd = 0;
-  double spring;
-  TSUBU_INLINE void carry(V3, double) {}
+  Real spring;
+  TSUBU_INLINE void carry(V3In<Real>, Real) {}
   template <class F>
-  TSUBU_INLINE void each(F&& f) { f(spring); }
+  TSUBU_INLINE void each(F&& f) {
+    f(spring);
+  }
 };
-struct GrowingScalarMemory {
+using ScalarMemory = ScalarMemoryIn<double>;
+template <class Real>
+struct GrowingScalarMemoryIn {
   static constexpr unsigned odd = 0;
-  double spring;
-  double stiffness;
-  TSUBU_INLINE void carry(V3, double) {}
+  Real spring;
+  Real stiffness;
+  TSUBU_INLINE void carry(V3In<Real>, Real) {}
   template <class F>
-  TSUBU_INLINE void each(F&& f) { f(spring), f(stiffness); }
+  TSUBU_INLINE void each(F&& f) {
+    f(spring), f(stiffness);
+  }
 };
+using GrowingScalarMemory = GrowingScalarMemoryIn<double>;
 
-/// Number of doubles in a struct of doubles.
-template <class T>
-inline constexpr int doublesIn = std::is_empty_v<T> ? 0 : static_cast<int>(sizeof(T) / sizeof(double));
+/// How many numbers a struct of nothing else has.
+template <class T, class Real = double>
+inline constexpr int numbersIn = std::is_empty_v<T> ? 0 : static_cast<int>(sizeof(T) / sizeof(Real));
 
 // The braces of nested structs are left out: the columns know nothing of them.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-braces"
 
-/// A struct of doubles from columns: member k from column[first + k][q].
-template <class T, class Columns>
+/// A struct of numbers from columns: member k from column[first + k][q].
+template <class T, class Real, class Columns>
 TSUBU_INLINE T fromColumns(const Columns& columns, int first, int q) {
   if constexpr (std::is_empty_v<T>) {
     return T{};
   } else {
     return [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
       return T{columns[static_cast<std::size_t>(first) + k][q]...};
-    }(std::make_index_sequence<static_cast<std::size_t>(doublesIn<T>)>{});
+    }
+    (std::make_index_sequence<static_cast<std::size_t>(numbersIn<T, Real>)>{});
   }
 }
 
@@ -87,25 +105,42 @@ inline constexpr int mostMemory = 10;
 ///   T8   k rises: the force stays, since what touches anew is not stretched;  k falls: the force falls with it
 ///
 /// Neither creates energy: F²/(2k) falls in both. Without the second (`rescales` = 0) it grows whenever the load falls.
+template <class Real>
 struct Eased {
-  double factor;  ///< of the force
-  double before;  ///< energy before, J
+  Real factor;  ///< of the force
+  Real before;  ///< energy before, J
 };
-TSUBU_INLINE Eased eased(const GrowingVectorMemory& memory, double k, double rescales) {
-  const double old = larger(memory.stiffness, tiny);
-  return {rescales != 0 && k < old ? k / old : 1.0, 0.5 * norm2(memory.spring) / old};
+template <class Real>
+TSUBU_INLINE Eased<Real> eased(const GrowingVectorMemoryIn<Real>& memory, Like<Real> k, Like<Real> rescales) {
+  const Real old = larger(memory.stiffness, tinyIn<Real>);
+  return {rescales != 0 && k < old ? k / old : 1, Real(0.5) * norm2(memory.spring) / old};
 }
-TSUBU_INLINE Eased eased(const GrowingScalarMemory& memory, double k, double) {
-  const double old = larger(memory.stiffness, tiny);
-  return {k < old ? k / old : 1.0, 0.5 * memory.spring * memory.spring / old};
+template <class Real>
+TSUBU_INLINE Eased<Real> eased(const GrowingScalarMemoryIn<Real>& memory, Like<Real> k, Like<Real>) {
+  const Real old = larger(memory.stiffness, tinyIn<Real>);
+  return {k < old ? k / old : 1, Real(0.5) * memory.spring * memory.spring / old};
 }
 // A constant spring has nothing to adapt to.
-TSUBU_INLINE Eased eased(const VectorMemory& memory, double k, double) { return {1.0, 0.5 * norm2(memory.spring) / larger(k, tiny)}; }
-TSUBU_INLINE Eased eased(const ScalarMemory& memory, double k, double) { return {1.0, 0.5 * memory.spring * memory.spring / larger(k, tiny)}; }
+template <class Real>
+TSUBU_INLINE Eased<Real> eased(const VectorMemoryIn<Real>& memory, Like<Real> k, Like<Real>) {
+  return {1, Real(0.5) * norm2(memory.spring) / larger(k, tinyIn<Real>)};
+}
+template <class Real>
+TSUBU_INLINE Eased<Real> eased(const ScalarMemoryIn<Real>& memory, Like<Real> k, Like<Real>) {
+  return {1, Real(0.5) * memory.spring * memory.spring / larger(k, tinyIn<Real>)};
+}
 
-TSUBU_INLINE void setStiffness(GrowingVectorMemory& memory, double k) { memory.stiffness = k; }
-TSUBU_INLINE void setStiffness(GrowingScalarMemory& memory, double k) { memory.stiffness = k; }
-TSUBU_INLINE void setStiffness(VectorMemory&, double) {}
-TSUBU_INLINE void setStiffness(ScalarMemory&, double) {}
+template <class Real>
+TSUBU_INLINE void setStiffness(GrowingVectorMemoryIn<Real>& memory, Like<Real> k) {
+  memory.stiffness = k;
+}
+template <class Real>
+TSUBU_INLINE void setStiffness(GrowingScalarMemoryIn<Real>& memory, Like<Real> k) {
+  memory.stiffness = k;
+}
+template <class Real>
+TSUBU_INLINE void setStiffness(VectorMemoryIn<Real>&, Like<Real>) {}
+template <class Real>
+TSUBU_INLINE void setStiffness(ScalarMemoryIn<Real>&, Like<Real>) {}
 
 }  // namespace tsubu::sim

@@ -21,15 +21,17 @@ struct ProjectedFriction {
   static constexpr std::array reads{need(Property::friction), mayRead(Property::tangentialStiffness),
                                     mayReadEither(Property::tangentialDampingRate, Property::tangentialDampingFactor)};
   static constexpr bool acts = true, needsGrowing = false, passive = true, withinLimit = true, common = false;
-  template <bool growing>
-  using Memory = VectorMemory;
+  template <bool growing, class Real>
+  using MemoryIn = VectorMemoryIn<Real>;
 
-  struct Pair {
-    double stiffness;       // k_t
-    double friction;        // μ
-    double damping;         // η_t √k_n/η_n
-    double dampingPerMass;  // η_t/m*
+  template <class Real>
+  struct PairIn {
+    Real stiffness;       // k_t
+    Real friction;        // μ
+    Real damping;         // η_t √k_n/η_n
+    Real dampingPerMass;  // η_t/m*
   };
+  using Pair = PairIn<double>;
 
   static Pair prepare(const PairValues& values, double normalStiffness, bool) {
     Pair p{};
@@ -48,18 +50,23 @@ struct ProjectedFriction {
   }
 
   /// Nothing comes back.
-  TSUBU_LAW double stored(const Pair&, const VectorMemory&) { return 0; }
+  template <class Real>
+  TSUBU_LAW Real stored(const PairIn<Real>&, const VectorMemoryIn<Real>&) {
+    return 0;
+  }
 
-  TSUBU_LAW TangentialForce force(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, VectorMemory& memory) {
-    const V3 before = memory.spring;
-    const double speed = norm(c.slip), length = norm(before), gain = p.stiffness * step.dt * speed;
-    const V3 along = speed > 0 ? (1 / larger(speed, tiny)) * c.slip : (1 / larger(length, tiny)) * before;
-    const double damping = p.damping * normal.dampingPerRootStiffness + p.dampingPerMass * c.effectiveMass;
-    const double trial = length + step.lead * gain + damping * speed, limit = p.friction * std::abs(normal.force);
+  template <class Real>
+  TSUBU_LAW TangentialForceIn<Real> force(const PairIn<Real>& p, const ContactIn<Real>& c, const NormalForceIn<Real>& normal,
+                                          StepIn<Real> step, VectorMemoryIn<Real>& memory) {
+    const V3In<Real> before = memory.spring;
+    const Real speed = norm(c.slip), length = norm(before), gain = p.stiffness * step.dt * speed;
+    const V3In<Real> along = speed > 0 ? (1 / larger(speed, tinyIn<Real>)) * c.slip : (1 / larger(length, tinyIn<Real>)) * before;
+    const Real damping = p.damping * normal.dampingPerRootStiffness + p.dampingPerMass * c.effectiveMass;
+    const Real trial = length + step.lead * gain + damping * speed, limit = p.friction * std::abs(normal.force);
     const bool slides = trial > limit;
-    const double size = slides ? limit : trial;
+    const Real size = slides ? limit : trial;
     memory.spring = (length + (slides ? 0 : gain)) * along;
-    const double work = size * speed * step.dt, dashpot = slides ? 0 : damping * speed * speed * step.dt;
+    const Real work = size * speed * step.dt, dashpot = slides ? 0 : damping * speed * speed * step.dt;
     return {-size * along, 0, 0, dashpot, work - dashpot};
   }
 };

@@ -5,12 +5,14 @@
 
 namespace tsubu::sim {
 
-struct RollingMoment {
-  V3 moment;            ///< on i, N m; j gets the opposite
-  double storedBefore;  ///< J
-  double storedAfter;   ///< J
-  double dissipated;    ///< in this step, J
+template <class Real>
+struct RollingMomentIn {
+  V3In<Real> moment;  ///< on i, N m; j gets the opposite
+  Real storedBefore;  ///< J
+  Real storedAfter;   ///< J
+  Real dissipated;    ///< in this step, J
 };
+using RollingMoment = RollingMomentIn<double>;
 
 /// Grains roll freely: no moment, no memory.
 struct FreeRolling {
@@ -18,9 +20,11 @@ struct FreeRolling {
   static constexpr std::string_view sentence = "Grains roll freely.";
   static constexpr std::array<Need, 0> reads{};
   static constexpr bool acts = false, common = true;
-  template <bool growing>
-  using Memory = NoMemory<Family::rolling>;
-  struct Pair {};
+  template <bool growing, class Real>
+  using MemoryIn = NoMemory<Family::rolling>;
+  template <class>
+  struct PairIn {};
+  using Pair = PairIn<double>;
   static Pair prepare(const PairValues&) { return {}; }
   static ContactMode mode(const Pair&, double, double) { return {}; }
 };

@@ -46,17 +46,19 @@ struct SpringLaw {
   static constexpr bool limitsTheSpring = sliding == SlidingSpring::limitedAlone;
   static constexpr bool acts = true, needsGrowing = follows, withinLimit = !limitsTheSpring;
   static constexpr bool passive = kind != SpringStiffness::scalesForce && (sliding == SlidingSpring::cutBack || limitsTheSpring);
-  template <bool>
-  using Memory = std::conditional_t<follows, GrowingVectorMemory, VectorMemory>;
+  template <bool, class Real>
+  using MemoryIn = std::conditional_t<follows, GrowingVectorMemoryIn<Real>, VectorMemoryIn<Real>>;
 
-  struct Pair {
-    double stiffness;       // k_t, or k_t/k_n where it follows
-    double half;            // 1/(2 k_t), or 0 without a spring
-    double friction;        // μ
-    double damping;         // η_t √k_n/η_n, or η_t/η_n where it follows
-    double dampingPerMass;  // η_t/m*
-    double rescales;        // T8: 1, or 0 for the demonstration of what goes wrong
+  template <class Real>
+  struct PairIn {
+    Real stiffness;       // k_t, or k_t/k_n where it follows
+    Real half;            // 1/(2 k_t), or 0 without a spring
+    Real friction;        // μ
+    Real damping;         // η_t √k_n/η_n, or η_t/η_n where it follows
+    Real dampingPerMass;  // η_t/m*
+    Real rescales;        // T8: 1, or 0 for the demonstration of what goes wrong
   };
+  using Pair = PairIn<double>;
 
   static Pair prepare(const PairValues& values, double normalStiffness, bool rescales) {
     Pair p{};
@@ -82,42 +84,43 @@ struct SpringLaw {
   }
 
   /// Energy that a memory holds, J.
-  template <class M>
-  TSUBU_LAW double stored(const Pair& p, const M& memory) {
+  template <class Real, class M>
+  TSUBU_LAW Real stored(const PairIn<Real>& p, const M& memory) {
     if constexpr (follows)
-      return 0.5 * norm2(memory.spring) / larger(memory.stiffness, tiny);
+      return Real(0.5) * norm2(memory.spring) / larger(memory.stiffness, tinyIn<Real>);
     else
       return p.half * norm2(memory.spring);
   }
 
-  template <class M>
-  TSUBU_LAW TangentialForce force(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, M& memory) {
-    double k = p.stiffness, own = p.dampingPerMass * c.effectiveMass, half = p.half, storedBefore = 0, ease = 1;
+  template <class Real, class M>
+  TSUBU_LAW TangentialForceIn<Real> force(const PairIn<Real>& p, const ContactIn<Real>& c, const NormalForceIn<Real>& normal,
+                                          StepIn<Real> step, M& memory) {
+    Real k = p.stiffness, own = p.dampingPerMass * c.effectiveMass, half = p.half, storedBefore = 0, ease = 1;
     if constexpr (follows) {
       k = p.stiffness * normal.stiffness;
       own += p.damping * normal.damping;
-      half = 0.5 / larger(k, tiny);
-      const Eased e = eased(memory, k, p.rescales);
-      ease = kind == SpringStiffness::scalesForce ? k / larger(memory.stiffness, tiny) : e.factor;
+      half = Real(0.5) / larger(k, tinyIn<Real>);
+      const Eased<Real> e = eased(memory, k, p.rescales);
+      ease = kind == SpringStiffness::scalesForce ? k / larger(memory.stiffness, tinyIn<Real>) : e.factor;
       storedBefore = e.before;
     } else {
       own += p.damping * normal.dampingPerRootStiffness;
     }
-    const double damping = larger(own, k * quieting(3.5 * k * c.inverseEffectiveMass, step));
-    const V3 before = ease * memory.spring;
+    const Real damping = larger(own, k * quieting(Real(3.5) * k * c.inverseEffectiveMass, step));
+    const V3In<Real> before = ease * memory.spring;
     if constexpr (!follows) storedBefore = half * norm2(before);
-    const V3 gain = (k * step.dt) * c.slip;
-    const V3 trial = limitsTheSpring ? before + step.lead * gain : before + step.lead * gain + damping * c.slip;
-    const double limit = p.friction * std::abs(normal.force), size2 = norm2(trial);
+    const V3In<Real> gain = (k * step.dt) * c.slip;
+    const V3In<Real> trial = limitsTheSpring ? before + step.lead * gain : before + step.lead * gain + damping * c.slip;
+    const Real limit = p.friction * std::abs(normal.force), size2 = norm2(trial);
     const bool slides = size2 > limit * limit;
-    const double keep = slides ? shareOf(limit, size2) : 1.0;
-    const double drag = limitsTheSpring ? (slides ? 0 : damping) : keep * damping;
-    const V3 force = limitsTheSpring ? -keep * trial - drag * c.slip : -keep * trial;
+    const Real keep = slides ? shareOf(limit, size2) : Real(1);
+    const Real drag = limitsTheSpring ? (slides ? 0 : damping) : keep * damping;
+    const V3In<Real> force = limitsTheSpring ? -keep * trial - drag * c.slip : -keep * trial;
     if constexpr (sliding == SlidingSpring::getsTheRest) {
-      const V3 spring = -force - damping * c.slip;  // at the instant of the force
+      const V3In<Real> spring = -force - damping * c.slip;  // at the instant of the force
       memory.spring = spring + (1 - step.lead) * gain;
       setStiffness(memory, k);
-      const double storedAfter = half * norm2(memory.spring), work = dot(spring + (step.mean - step.lead) * gain, c.slip) * step.dt;
+      const Real storedAfter = half * norm2(memory.spring), work = dot(spring + (step.mean - step.lead) * gain, c.slip) * step.dt;
       return {force, storedBefore, storedAfter, damping * norm2(c.slip) * step.dt, work - (storedAfter - storedBefore)};
     }
     if constexpr (sliding == SlidingSpring::frozen)
@@ -125,8 +128,8 @@ struct SpringLaw {
     else
       memory.spring = keep * (before + gain);
     setStiffness(memory, k);
-    const double storedAfter = half * norm2(memory.spring);
-    const double springWork = keep * dot(before + step.mean * gain, c.slip) * step.dt;
+    const Real storedAfter = half * norm2(memory.spring);
+    const Real springWork = keep * dot(before + step.mean * gain, c.slip) * step.dt;
     return {force, storedBefore, storedAfter, drag * norm2(c.slip) * step.dt, springWork - (storedAfter - storedBefore)};
   }
 
@@ -157,7 +160,8 @@ struct FrozenSpringFriction : SpringLaw<SpringStiffness::constant, SlidingSpring
 struct LudingSpringFriction : SpringLaw<SpringStiffness::constant, SlidingSpring::getsTheRest> {
   static constexpr std::string_view name = "luding_spring";
   static constexpr std::string_view sentence =
-      "The same, but while the contact slides the dashpot stays whole and the spring gets the rest (T13): Luding's way, and that of LAMMPS.";
+      "The same, but while the contact slides the dashpot stays whole and the spring gets the rest (T13): Luding's way, and that of "
+      "LAMMPS.";
   static constexpr std::array reads = SpringFriction::reads;
   static constexpr bool common = false;
 };
@@ -172,7 +176,8 @@ struct LimitedSpringFriction : SpringLaw<SpringStiffness::constant, SlidingSprin
 
 struct MindlinFriction : SpringLaw<SpringStiffness::followsNormal, SlidingSpring::cutBack> {
   static constexpr std::string_view name = "mindlin";
-  static constexpr std::string_view sentence = "Coulomb friction with Mindlin's spring, whose stiffness follows the overlap (T7, T8); for hertz.";
+  static constexpr std::string_view sentence =
+      "Coulomb friction with Mindlin's spring, whose stiffness follows the overlap (T7, T8); for hertz.";
   static constexpr std::array reads{need(Property::friction), need(Property::youngModulus), need(Property::poissonRatio),
                                     mayReadEither(Property::tangentialDampingRate, Property::tangentialDampingFactor)};
   static constexpr bool common = true;
@@ -181,7 +186,8 @@ struct MindlinFriction : SpringLaw<SpringStiffness::followsNormal, SlidingSpring
 struct MindlinDisplacementFriction : SpringLaw<SpringStiffness::scalesForce, SlidingSpring::limitedAlone> {
   static constexpr std::string_view name = "mindlin_displacement";
   static constexpr std::string_view sentence =
-      "Mindlin's spring that keeps its displacement when the stiffness changes, which can make energy; slides as limited_spring (T15): that of LIGGGHTS.";
+      "Mindlin's spring that keeps its displacement when the stiffness changes, which can make energy; slides as limited_spring (T15): "
+      "that of LIGGGHTS.";
   static constexpr std::array reads = MindlinFriction::reads;
   static constexpr bool common = false;
 };

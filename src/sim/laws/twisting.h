@@ -21,9 +21,11 @@ struct FreeTwisting {
   static constexpr std::string_view sentence = "Grains spin freely about the line of centres.";
   static constexpr std::array<Need, 0> reads{};
   static constexpr bool acts = false, common = true;
-  template <bool growing>
-  using Memory = NoMemory<Family::twisting>;
-  struct Pair {};
+  template <bool growing, class Real>
+  using MemoryIn = NoMemory<Family::twisting>;
+  template <class>
+  struct PairIn {};
+  using Pair = PairIn<double>;
   static Pair prepare(const PairValues&) { return {}; }
   static ContactMode mode(const Pair&, double, double) { return {}; }
 };
@@ -34,13 +36,15 @@ struct SpringTwisting {
   static constexpr std::array reads{need(Property::twistingFriction)};
   static constexpr bool acts = true, common = false;
   static constexpr double dampingRatio = 0.3;
-  template <bool growing>
-  using Memory = std::conditional_t<growing, GrowingScalarMemory, ScalarMemory>;
+  template <bool growing, class Real>
+  using MemoryIn = std::conditional_t<growing, GrowingScalarMemoryIn<Real>, ScalarMemoryIn<Real>>;
 
-  struct Pair {
-    double friction;        // μ_w
-    double stiffnessRatio;  // k_w/(k_n R*²)
+  template <class Real>
+  struct PairIn {
+    Real friction;        // μ_w
+    Real stiffnessRatio;  // k_w/(k_n R*²)
   };
+  using Pair = PairIn<double>;
   static Pair prepare(const PairValues& values) {
     const double mu = values[Property::twistingFriction];
     return {mu, 2.25 * mu * mu};
@@ -50,30 +54,33 @@ struct SpringTwisting {
     return {stiffness, 2 * dampingRatio * std::sqrt(stiffness)};
   }
 
-  TSUBU_LAW double stiffness(const Pair& p, const Contact& c, double normalStiffness) {
+  template <class Real>
+  TSUBU_LAW Real stiffness(const PairIn<Real>& p, const ContactIn<Real>& c, Real normalStiffness) {
     return p.stiffnessRatio * normalStiffness * c.effectiveRadius * c.effectiveRadius;
   }
-  TSUBU_LAW double stored(const Pair& p, const Contact& c, double normalStiffness, const ScalarMemory& memory) {
-    return 0.5 / larger(stiffness(p, c, normalStiffness), tiny) * memory.spring * memory.spring;
+  template <class Real>
+  TSUBU_LAW Real stored(const PairIn<Real>& p, const ContactIn<Real>& c, Real normalStiffness, const ScalarMemoryIn<Real>& memory) {
+    return Real(0.5) / larger(stiffness(p, c, normalStiffness), tinyIn<Real>) * memory.spring * memory.spring;
   }
-  TSUBU_LAW double stored(const Pair&, const Contact&, double, const GrowingScalarMemory& memory) {
-    return 0.5 / larger(memory.stiffness, tiny) * memory.spring * memory.spring;
+  template <class Real>
+  TSUBU_LAW Real stored(const PairIn<Real>&, const ContactIn<Real>&, Real, const GrowingScalarMemoryIn<Real>& memory) {
+    return Real(0.5) / larger(memory.stiffness, tinyIn<Real>) * memory.spring * memory.spring;
   }
 
-  template <class M>
-  TSUBU_LAW RollingMoment moment(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, M& memory) {
-    const double k = stiffness(p, c, normal.stiffness), spin = dot(c.relativeSpin, c.n);
-    const double damping =
-        larger(2 * dampingRatio * std::sqrt(k / c.inverseSpinInertia), k * quieting(k * c.inverseSpinInertia, step));
-    const Eased ease = eased(memory, k, 1.0);
-    const double before = ease.factor * memory.spring, gain = k * step.dt * spin, trial = before + step.lead * gain;
-    const double limit = p.friction * c.effectiveRadius * std::abs(normal.force), size = std::abs(trial);
+  template <class Real, class M>
+  TSUBU_LAW RollingMomentIn<Real> moment(const PairIn<Real>& p, const ContactIn<Real>& c, const NormalForceIn<Real>& normal,
+                                         StepIn<Real> step, M& memory) {
+    const Real k = stiffness(p, c, normal.stiffness), spin = dot(c.relativeSpin, c.n);
+    const Real damping = larger(2 * dampingRatio * std::sqrt(k / c.inverseSpinInertia), k * quieting(k * c.inverseSpinInertia, step));
+    const Eased<Real> ease = eased(memory, k, Real(1));
+    const Real before = ease.factor * memory.spring, gain = k * step.dt * spin, trial = before + step.lead * gain;
+    const Real limit = p.friction * c.effectiveRadius * std::abs(normal.force), size = std::abs(trial);
     const bool yields = size > limit;
-    const double keep = yields ? limit / larger(size, tiny) : 1.0;
+    const Real keep = yields ? limit / larger(size, tinyIn<Real>) : Real(1);
     memory.spring = keep * (before + gain);
     setStiffness(memory, k);
-    const double active = yields ? 0.0 : damping, storedAfter = 0.5 / larger(k, tiny) * memory.spring * memory.spring;
-    const double work = (keep * (before + step.mean * gain) + active * spin) * spin * step.dt;
+    const Real active = yields ? Real(0) : damping, storedAfter = Real(0.5) / larger(k, tinyIn<Real>) * memory.spring * memory.spring;
+    const Real work = (keep * (before + step.mean * gain) + active * spin) * spin * step.dt;
     return {(-keep * trial - active * spin) * c.n, ease.before, storedAfter, work - (storedAfter - ease.before)};
   }
 };

@@ -14,26 +14,33 @@ namespace tsubu::sim {
 
 struct ViscousFriction {
   static constexpr std::string_view name = "viscous";
-  static constexpr std::string_view sentence = "A dashpot against the slip, within the Coulomb limit (T9); no memory, so nothing rests on it.";
+  static constexpr std::string_view sentence =
+      "A dashpot against the slip, within the Coulomb limit (T9); no memory, so nothing rests on it.";
   static constexpr std::array reads{need(Property::friction), need(Property::tangentialDampingRate)};
   static constexpr bool acts = true, needsGrowing = false, passive = true, withinLimit = true, common = false;
-  template <bool growing>
-  using Memory = NoMemory<Family::tangential>;
+  template <bool growing, class Real>
+  using MemoryIn = NoMemory<Family::tangential>;
 
-  struct Pair {
-    double friction;        // μ
-    double dampingPerMass;  // γ_t
+  template <class Real>
+  struct PairIn {
+    Real friction;        // μ
+    Real dampingPerMass;  // γ_t
   };
-  static Pair prepare(const PairValues& values, double, bool) { return {values[Property::friction], values[Property::tangentialDampingRate]}; }
+  using Pair = PairIn<double>;
+  static Pair prepare(const PairValues& values, double, bool) {
+    return {values[Property::friction], values[Property::tangentialDampingRate]};
+  }
   /// Bounded by T10 in any step.
   static ContactMode mode(const Pair&, double, double, double) { return {}; }
 
-  TSUBU_LAW TangentialForce force(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, NoMemory<Family::tangential>&) {
-    const double speed = norm(c.slip);
-    const double damping = smaller(p.dampingPerMass, shareOfStop * (2.0 / 7.0) * step.perSecond) * c.effectiveMass;
-    const double limit = p.friction * std::abs(normal.force);
-    const double keep = damping * speed > limit ? limit / larger(damping * speed, tiny) : 1.0;
-    const double work = keep * damping * speed * speed * step.dt;
+  template <class Real>
+  TSUBU_LAW TangentialForceIn<Real> force(const PairIn<Real>& p, const ContactIn<Real>& c, const NormalForceIn<Real>& normal,
+                                          StepIn<Real> step, NoMemory<Family::tangential>&) {
+    const Real speed = norm(c.slip);
+    const Real damping = smaller(p.dampingPerMass, shareOfStop<Real> * Real(2.0 / 7.0) * step.perSecond) * c.effectiveMass;
+    const Real limit = p.friction * std::abs(normal.force);
+    const Real keep = damping * speed > limit ? limit / larger(damping * speed, tinyIn<Real>) : Real(1);
+    const Real work = keep * damping * speed * speed * step.dt;
     return {(-keep * damping) * c.slip, 0, 0, keep < 1 ? 0 : work, keep < 1 ? work : 0};
   }
 };

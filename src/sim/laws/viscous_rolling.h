@@ -15,23 +15,28 @@ namespace tsubu::sim {
 
 struct ViscousRolling {
   static constexpr std::string_view name = "viscous";
-  static constexpr std::string_view sentence = "Torque proportional to rolling speed and load (R6); no memory: slows rolling, holds nothing.";
+  static constexpr std::string_view sentence =
+      "Torque proportional to rolling speed and load (R6); no memory: slows rolling, holds nothing.";
   static constexpr std::array reads{need(Property::rollingViscosity)};
   static constexpr bool acts = true, common = false;
-  template <bool growing>
-  using Memory = NoMemory<Family::rolling>;
+  template <bool growing, class Real>
+  using MemoryIn = NoMemory<Family::rolling>;
 
-  struct Pair {
-    double viscosity;  // μ_v
+  template <class Real>
+  struct PairIn {
+    Real viscosity;  // μ_v
   };
+  using Pair = PairIn<double>;
   static Pair prepare(const PairValues& values) { return {values[Property::rollingViscosity]}; }
   /// Bounded by R2 in any step.
   static ContactMode mode(const Pair&, double, double) { return {}; }
 
-  TSUBU_LAW RollingMoment moment(const Pair& p, const Contact& c, const NormalForce& normal, StepOf step, NoMemory<Family::rolling>&) {
-    const V3 rolling = c.relativeSpin - dot(c.relativeSpin, c.n) * c.n;
-    const double wanted = p.viscosity * c.effectiveRadius * c.effectiveRadius * std::abs(normal.force);
-    const V3 resistance = smaller(wanted, shareOfStop / (c.inverseSpinInertia * step.dt)) * rolling;
+  template <class Real>
+  TSUBU_LAW RollingMomentIn<Real> moment(const PairIn<Real>& p, const ContactIn<Real>& c, const NormalForceIn<Real>& normal,
+                                         StepIn<Real> step, NoMemory<Family::rolling>&) {
+    const V3In<Real> rolling = c.relativeSpin - dot(c.relativeSpin, c.n) * c.n;
+    const Real wanted = p.viscosity * c.effectiveRadius * c.effectiveRadius * std::abs(normal.force);
+    const V3In<Real> resistance = smaller(wanted, shareOfStop<Real> / (c.inverseSpinInertia * step.dt)) * rolling;
     return {-resistance, 0, 0, dot(resistance, rolling) * step.dt};
   }
 };

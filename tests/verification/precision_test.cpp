@@ -1,0 +1,106 @@
+// Mixed precision: contacts between grains in single numbers, from differences taken in double. What must not be lost with them.
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "verification/models.h"
+
+namespace tsubu::sim::test {
+namespace {
+
+Scenario mixed() {
+  Scenario s;
+  s.model.precision = Precision::mixed;
+  return s;
+}
+
+// An overlap is a small difference of large numbers: at a ten-millionth of the radius nothing would be left of it if the distance were rounded
+// to a single number first. One grain lies on another, which rests on a plane: δ = m g/k, far away from the origin.
+TEST(MixedPrecision, ResolvesOverlapsBelowARoundedDistance) {
+  constexpr double k = 2e5, mass = 3e-5, g = 9.81, lower = 2.1e-3, upper = 1.7e-3;
+  const double overlap = mass * g / k;
+  ASSERT_LT(overlap, 1e-6 * upper);
+  Scenario s = mixed();
+  s.model.gravity = {0, 0, -g};
+  s.pair[Property::normalStiffness] = k;
+  s.pair[Property::restitution] = 0.3;
+  const Vec3 far(1000, -2000, 500);
+  s.plane(far, {0, 0, 1});
+  s.grain(5e-5, lower, far + Vec3(0, 0, lower));
+  s.grain(mass, upper, far + Vec3(0, 0, 2 * lower + upper));
+  Simulation sim = s.start(2e-6);
+  sim.advance(60'000);
+  const Snapshot now = look(sim);
+  const double found = lower + upper - (now.position[1] - now.position[0]).norm();
+  EXPECT_NEAR(found, overlap, 2e-4 * overlap);  // 500 m has a last bit of 1.1e-13 m
+  EXPECT_LT(now.velocity[1].norm(), 1e-9);
+}
+
+// Oblique collisions of unequal, spinning grains end as they do in double, to the digits of single numbers.
+TEST(MixedPrecision, CollisionsEndAsInDouble) {
+  Random random(3, 7);
+  for (int n = 0; n < 40; ++n) {
+    Scenario s;
+    s.model.contact = {n % 2 ? "hertz" : "linear", n % 4 < 2 ? "spring" : "none", n % 4 < 2 && n % 3 ? "elastic_plastic" : "none", n % 5 == 0};
+    s.pair[Property::normalStiffness] = 3000;
+    s.pair[Property::tangentialStiffness] = 1200;
+    s.pair[Property::restitution] = random.uniform(0.1, 0.9);
+    s.pair[Property::friction] = random.uniform(0.05, 0.8);
+    s.pair[Property::rollingFriction] = 0.1;
+    const double r1 = random.uniform(1e-3, 3e-3), r2 = random.uniform(1e-3, 3e-3);
+    const auto any = [&](double size) {
+      const double x = random.uniform(-size, size), y = random.uniform(-size, size), z = random.uniform(-size, size);
+      return Vec3(x, y, z);
+    };
+    s.grain(random.uniform(1e-5, 9e-5), r1, Vec3::Zero(), any(0.2), any(100));
+    s.grain(random.uniform(1e-5, 9e-5), r2, {r1 + r2 + 1e-6, 0, 0}, Vec3(-0.5, 0, 0) + any(0.2), any(100));
+    for (Material& material : s.model.materials) {
+      material.values[Property::youngModulus] = 2e7;
+      material.values[Property::poissonRatio] = 0.3;
+    }
+    Scenario single = s;
+    single.model.precision = Precision::mixed;
+    Simulation a = s.start(1e-6), b = single.start(1e-6);
+    a.advance(4000);
+    b.advance(4000);
+    const Snapshot x = look(a), y = look(b);
+    EXPECT_NE(a.stateHash(), b.stateHash());
+    ASSERT_EQ(x.angularVelocity.size(), y.angularVelocity.size());
+    for (std::size_t g = 0; g < 2; ++g) {
+      EXPECT_LT((x.velocity[g] - y.velocity[g]).norm(), 1e-5) << n;
+      if (x.angularVelocity.empty()) continue;  // without friction nothing turns
+      EXPECT_LT((x.angularVelocity[g] - y.angularVelocity[g]).norm(), 2e-2) << n;  // of some 100 rad/s
+    }
+  }
+}
+
+std::string refusal(Scenario s) {
+  try {
+    s.start(1e-6);
+  } catch (const Error& error) {
+    return error.diagnostics().front().message;
+  }
+  return "accepted";
+}
+
+TEST(MixedPrecision, RefusesWhatItCannotDo) {
+  Scenario s = mixed();
+  s.pair[Property::normalStiffness] = 1000;
+  s.pair[Property::restitution] = 0.5;
+  s.pair[Property::friction] = 0.5;
+  s.pair[Property::tangentialDampingRate] = 100;
+  s.grain(1e-9, 20e-6, Vec3::Zero());
+  EXPECT_EQ(refusal(s), "accepted");
+  Scenario dust = s;
+  dust.grain(1e-12, 2e-6, {1, 0, 0});
+  EXPECT_EQ(refusal(dust), "A radius of 2e-06 m is outside of what single precision can do: 1e-05 m to 100 m.");
+  s.model.contact.tangential = "viscous";
+  EXPECT_NE(refusal(s).find("viscous"), std::string::npos);
+  s.model.contact.tangential = "spring";
+  EXPECT_EQ(refusal(s), "accepted");
+  s.model.integrator = Integrator::rungeKutta;
+  EXPECT_NE(refusal(s).find("Runge-Kutta"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tsubu::sim::test
