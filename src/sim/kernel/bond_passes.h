@@ -189,24 +189,31 @@ TSUBU_INLINE void toRows(const BondStage::Column* columns, int q, D4 (&rows)[4])
   transpose4(rows[0], rows[1], rows[2], rows[3]);
 }
 
+/// Adds the columns of up to four bonds to the rows of both ends.
+TSUBU_INLINE void scatterFourBonds(ForceRow* first, ForceRow* second, const std::int32_t* is, const std::int32_t* js, int count, int q,
+                                   const BondStage& s) {
+  D4 force[4], coupleI[4], coupleJ[4];
+  toRows(s.force, q, force);
+  toRows(s.coupleI, q, coupleI);
+  toRows(s.coupleJ, q, coupleJ);
+  for (int k = 0; k < count; ++k) {
+    double* const a = &first[is[k]].fx;
+    double* const b = &second[js[k]].fx;
+    add4(a, force[k]);
+    subtract4(b, force[k]);
+    add4(a + 4, coupleI[k]);
+    add4(b + 4, coupleJ[k]);
+  }
+}
+
 /// Adds the columns to the rows of both ends, in the order of the bonds.
 inline void scatterBonds(const BondRows& first, const BondRows& second, const std::int32_t* is, const std::int32_t* js, int count,
                          const BondStage& s) {
-  for (int q = 0; q < count; q += 4) {
-    D4 force[4], coupleI[4], coupleJ[4];
-    toRows(s.force, q, force);
-    toRows(s.coupleI, q, coupleI);
-    toRows(s.coupleJ, q, coupleJ);
-    const int few = count - q < 4 ? count - q : 4;
-    for (int k = 0; k < few; ++k) {
-      double* const a = &first.forces[is[q + k]].fx;
-      double* const b = &second.forces[js[q + k]].fx;
-      add4(a, force[k]);
-      subtract4(b, force[k]);
-      add4(a + 4, coupleI[k]);
-      add4(b + 4, coupleJ[k]);
-    }
-  }
+  ForceRow* const i = first.forces;  // copies that no store can change
+  ForceRow* const j = second.forces;
+  int q = 0;
+  for (; q + 4 <= count; q += 4) scatterFourBonds(i, j, is + q, js + q, 4, q, s);
+  if (q < count) scatterFourBonds(i, j, is + q, js + q, count - q, q, s);
 }
 
 /// Names the bonds of a chunk that break.
