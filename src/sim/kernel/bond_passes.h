@@ -175,10 +175,16 @@ void pullBonds(const BondKind& given, const BondChunk& bonds, int count, double 
   }
 }
 
+/// In registers: what is stored would have to be waited for before the next is added to it.
 inline void addToLanes(const double* column, int count, double* lane) {
   const int whole = count & ~7;
-  for (int q = 0; q < whole; q += 8)
-    for (int l = 0; l < 8; ++l) lane[l] += column[q + l];
+  D4 low = load4(lane), high = load4(lane + 4);
+  for (int q = 0; q < whole; q += 8) {
+    low += load4(column + q);
+    high += load4(column + q + 4);
+  }
+  store4(lane, low);
+  store4(lane + 4, high);
   for (int q = whole; q < count; ++q) lane[q - whole] += column[q];
 }
 
@@ -218,9 +224,10 @@ inline void scatterBonds(const BondRows& first, const BondRows& second, const st
 
 /// Names the bonds of a chunk that break.
 inline void noteBroken(const BondKind& kind, const BondColumns& bonds, std::size_t from, int count, const BondStage& s, BondFindings& found) {
-  double broken = 0;
-  for (int q = 0; q < count; ++q) broken = larger(broken, s.broken[q]);
-  for (int q = 0; broken > 0 && q < count; ++q) {
+  double broken[8] = {};
+  addToLanes(s.broken, count, broken);
+  if (BondFindings::sum(broken) == 0) return;
+  for (int q = 0; q < count; ++q) {
     if (s.broken[q] == 0) continue;
     const std::size_t k = from + static_cast<std::size_t>(q);
     found.broken.push_back(static_cast<std::int32_t>(k));
