@@ -13,6 +13,7 @@ import subprocess
 import sys
 
 WIDTH = {"avx2": "ymm", "avx512": "zmm"}
+PASSES = r"\b((passPairs|passWalls|passBonds|findDirections|findSlip|stretchBonds|pullBonds)<|(findAxes|turnFrames)\()"
 # Operations on vectors over operations on numbers: g++ writes the rest of a loop out, which for single numbers may be twice as long.
 LEAST = {"d": 0.2, "s": 0.1}
 
@@ -24,7 +25,7 @@ def scalar_passes(objdump, file, register, precision):
     name = None
     for line in listing.splitlines():
         if head := re.match(r"[0-9a-f]+ <(.*)>:$", line):
-            name = head[1] if re.search(r"\b(passPairs|passWalls|passBonds|findDirections|findSlip)<", head[1]) else None
+            name = head[1] if re.search(PASSES, head[1]) else None
             if name:
                 operations[name] = [0, 0]
         elif name and re.search(rf"\bv(mul|add|sub|div|sqrt)p{precision}\b.*{register}", line):

@@ -18,6 +18,30 @@ TEST(Column, OfThreeHundredGrainsDoesNotCreep) {
   EXPECT_LT(creep.residual, 3e-2);
 }
 
+// Ten thousand grains one upon the other in their exact equilibrium, without any damping: the lowest contact carries ten thousand times what the
+// topmost does, and only rounding moves anything. extremes_slow_test.cpp has a million steps.
+TEST(Column, OfTenThousandGrainsStands) {
+  for (const std::string_view law : {"linear", "hertz"}) {
+    const std::uint64_t steps = 100000;
+    const Stack stack{law, 10000};
+    const Standing seen = watch(stack, steps);
+    const double bound = roundedAway(seen.ulp, steps);
+    EXPECT_GT(seen.waves, 1) << law;
+    EXPECT_LT(seen.moved, bound) << law;
+    EXPECT_EQ(seen.aside, 0) << law;
+    EXPECT_LT(seen.fastest, 2 * stack.omega() * bound) << law;  // no grain swings faster than 2 √(k/m)
+    EXPECT_LT(seen.residual, 1e-13) << law;  // sums of 10⁴ terms
+  }
+}
+
+// What the bounds are worth: overlaps of a weight that is wrong by a part in 10⁹ break them at once.
+TEST(Column, ThatPressesOnItselfByAPartInABillionMoves) {
+  const std::uint64_t steps = 5000;
+  const Stack stack{"linear", 10000};
+  const Standing seen = watch(stack, steps, 1e-9);
+  EXPECT_GT(seen.moved, 2 * roundedAway(seen.ulp, steps));
+}
+
 // A closest packing, pressed into a box whose floor shakes with twenty g: nothing gets out, nothing blows up, and the account still closes.
 TEST(Jammed, ShakenPackingKeepsItsAccount) {
   for (const Integrator integrator : {Integrator::symplecticEuler, Integrator::velocityVerlet}) {

@@ -51,6 +51,23 @@ TEST(ExtremesSlow, ColumnAtRestForAMillionSteps) {
   EXPECT_LT(creep.kinetic, 1e-6);
 }
 
+// Twenty times as long as a wave takes from the floor to the top.
+TEST(ExtremesSlow, ColumnOfTenThousandGrainsStandsForAMillionSteps) {
+  for (const std::string_view law : {"linear", "hertz"}) {
+    const std::uint64_t steps = 1000000;
+    const Stack stack{law, 10000};
+    const Standing seen = watch(stack, steps);
+    const double bound = roundedAway(seen.ulp, steps);
+    fmt::print("  {}: {:.0f} waves, moved {:.1e} of a radius or {:.0f} units of the last place, fastest {:.1e} m/s, residual {:.1e}\n", law, seen.waves,
+               seen.moved / Stack::r, seen.moved / seen.ulp, seen.fastest, seen.residual);
+    EXPECT_GT(seen.waves, 10) << law;
+    EXPECT_LT(seen.moved, bound) << law;
+    EXPECT_EQ(seen.aside, 0) << law;
+    EXPECT_LT(seen.fastest, 2 * stack.omega() * bound) << law;
+    EXPECT_LT(seen.residual, 1e-13) << law;
+  }
+}
+
 // A million grains where a boulder's cell is: none of them touches, all are found, and the step is taken.
 TEST(ExtremesSlow, AMillionGrainsInTheCellOfABoulder) {
   Scenario s;

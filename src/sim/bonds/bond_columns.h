@@ -36,14 +36,23 @@ inline constexpr int bondChunk = 64;
 /// The bench of a chunk of bonds: see Stage. Three columns for a vector.
 struct alignas(64) BondStage {
   using Column = double[bondChunk];
+  /// Difference of the velocities, and of each end r ω and 1/r.
   struct Motion {
-    Column velocity[3], spinSum[3], spin[3];
+    Column velocity[3], surfaceI[3], perRadiusI, surfaceJ[3], perRadiusJ;
   };
 
+  // In.
   Column d[3], radiusSum;
   Motion half, now;  // `now` only when something is damped and the rows do not have the velocities of the half step
-  Column force[3], couple[3], moment[3];
-  Column loss, relaxed, broken, released;
+
+  // On the way: see BondAxis, BondFrame.
+  Column n0[3], n[3], r0, r, perRadiusSum;
+  Column b[3], sumT[3], sumB[3];
+  Column before[6];  // BondStrain, for bonds that may break or relax
+
+  // Out: force on i, and the couples Q of both ends, moments included (T = −r Q).
+  Column force[3], coupleI[3], coupleJ[3];
+  Column loss, relaxed, broken;
 };
 
 /// The ends of bonds as rows: of grains, or of the places on a wall where bonds are fixed.
@@ -58,7 +67,7 @@ struct BondFindings {
   double loss[8] = {};      ///< J: taken by dampers in this step
   double relaxed[8] = {};   ///< J: taken by relaxation since the step before
   std::vector<std::int32_t> broken;
-  double released = 0;      ///< J: by those
+  double released = 0;      ///< J: what the springs of those held half a step ago, when they last pulled
 
   static double sum(const double* lanes) {
     double total = 0;

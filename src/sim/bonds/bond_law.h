@@ -28,9 +28,7 @@ namespace tsubu::sim {
 struct BondKind {
   double shearOverNormal;  ///< k_t/k_n
   double eta[bondWays];    ///< B4: shares; B5: 1/s; B6: dashpots over critical ones, of BondBody
-  double perTension, perCompression;  ///< 1/Pa: one over the strength, 0 for never
-  double shear, pressureSlope;        ///< Pa: τ_max; tan φ
-  double perStretch;                  ///< one over the stretch that breaks
+  BondStrength strength;
 };
 
 inline BondKind kindOf(const Bonding& bonding) {
@@ -42,12 +40,7 @@ inline BondKind kindOf(const Bonding& bonding) {
     kind.eta[across] *= std::sqrt(2.0 / 7.0 * kind.shearOverNormal);
     kind.eta[twisting] *= std::sqrt(2 * kind.shearOverNormal);
   }
-  const BondStrength& strength = bonding.strength;
-  kind.perTension = 1 / strength.tension;
-  kind.perCompression = 1 / strength.compression;
-  kind.shear = strength.shear;
-  kind.pressureSlope = strength.pressureSlope;
-  kind.perStretch = 1 / strength.stretch;
+  kind.strength = bonding.strength;
   return kind;
 }
 
@@ -79,138 +72,209 @@ struct BondMotion {
 
 struct BondForce {
   V3 force;    ///< on i
-  V3 couple;   ///< n × F
+  V3 couple;   ///< Q = (l/R) n × F, the same at both ends: torques −R Q (grain_rows.h)
   V3 moment;   ///< on i
-  double arm;  ///< l over R of the same end
   double loss;      ///< J: what dampers take in the step
   double relaxed;   ///< J: what B5 has taken since the step before
   bool holds;       ///< or breaks now
-  double released;  ///< J: what the springs held half a step ago, when a bond that breaks now last pulled
 };
 
-TSUBU_INLINE double signOf(double v) { return v > 0 ? 1.0 : (v < 0 ? -1.0 : 0.0); }
-
-/// The energy of the springs, given their elongation along n, times a second state of theirs: ½ Σ k a b. With a = b what is stored.
-TSUBU_INLINE double springProduct(const BondBody& body, double shearOverNormal, double stretchA, double stretchB, const BondMemory& a,
-                                  const BondMemory& b) {
-  const double radius2 = body.radius * body.radius, area = bondPi * radius2;
-  const double inertia = 0.25 * area * radius2;  // I; J = 2 I
-  return 0.5 * body.stiffness *
-         (area * (stretchA * stretchB + shearOverNormal * (a.shearT * b.shearT + a.shearB * b.shearB)) +
-          inertia * (2 * shearOverNormal * (a.twist * b.twist) + (a.bendT * b.bendT + a.bendB * b.bendB)));
-}
-
-/// Stresses of a bond, Pa: along it (positive in compression), in the outermost fibre by bending, and across it with what torsion adds.
-struct BondStress {
-  double axial, fibre, shear;
+/// How far the springs are stretched, in the bond's frame.
+struct BondStrain {
+  double stretch;         ///< r_0 − r, m
+  double shearT, shearB;  ///< s, m
+  double twist, bendT, bendB;  ///< θ, rad
 };
-TSUBU_INLINE BondStress bondStress(double radius, double normal, double shear2, double torsion, double bending2) {
-  const double inverse = 1 / radius, perArea = (1 / bondPi) * inverse * inverse, section = 4 * perArea * inverse;  // r_b/I, twice r_b/J
-  return {normal * perArea, std::sqrt(bending2) * section, std::sqrt(shear2) * perArea + 0.5 * std::abs(torsion) * section};
-}
-TSUBU_INLINE double shearStrength(const BondKind& kind, double axial) { return kind.shear + kind.pressureSlope * larger(axial, 0); }
-
-/// B7–B10: the largest of the stresses over its strength; `stretch` is r over the first length. 1 breaks.
-TSUBU_INLINE double bondLoad(const BondKind& kind, const BondStress& stress, double stretch) {
-  const double pull = (stress.fibre - stress.axial) * kind.perTension, push = (stress.fibre + stress.axial) * kind.perCompression;
-  return larger(larger(pull, push), larger(stress.shear / shearStrength(kind, stress.axial), stretch * kind.perStretch));
-}
-/// The same without a division, where it matters only whether the bond holds.
-TSUBU_INLINE bool bondHolds(const BondKind& kind, const BondStress& stress, double r, double length) {
-  const double pull = (stress.fibre - stress.axial) * kind.perTension, push = (stress.fibre + stress.axial) * kind.perCompression;
-  return larger(larger(larger(pull, push) - 1, stress.shear - shearStrength(kind, stress.axial)), r * kind.perStretch - length) < 0;
+TSUBU_INLINE BondStrain strainOf(const BondMemory& memory, double r) {
+  return {memory.rest - r, memory.shearT, memory.shearB, memory.twist, memory.bendT, memory.bendB};
 }
 
-/// \brief Advances the memory by a step and returns what the bond does.
-/// \param d      x_i − x_j now
-/// \param moved  motion in the half step that led here
-/// \param now    motion of the instant; read by dampers only
-template <BondDamping damping, bool breakable>
-TSUBU_INLINE BondForce stepBond(const BondKind& kind, const BondBody& body, V3 d, double radiusSum, const BondMotion& moved,
-                                const BondMotion& now, double dt, BondMemory& memory) {
-  const BondMemory before = memory;
-  const V3 d0 = d - dt * moved.velocity;
+/// N/m and N m: k_n A, k_t A, k_t J, k_n I.
+struct BondSprings {
+  double along, across, twist, bend;
+};
+TSUBU_INLINE BondSprings springsOf(const BondBody& body, double shearOverNormal) {
+  const double radius2 = body.radius * body.radius, along = body.stiffness * bondPi * radius2, bend = 0.25 * along * radius2;
+  return {along, shearOverNormal * along, 2 * shearOverNormal * bend, bend};
+}
+
+/// The energy of the springs when both states are the same; otherwise between the two: ½ Σ k a b.
+TSUBU_INLINE double springProduct(const BondSprings& k, const BondStrain& a, const BondStrain& b) {
+  return 0.5 * (k.along * (a.stretch * b.stretch) + k.across * (a.shearT * b.shearT + a.shearB * b.shearB) + k.twist * (a.twist * b.twist) +
+                k.bend * (a.bendT * b.bendT + a.bendB * b.bendB));
+}
+
+/// What springs and dampers do, in the bond's frame: force and moment on i.
+struct BondPull {
+  double fn, ft, fb, mn, mt, mb;
+};
+/// B2.
+TSUBU_INLINE BondPull pullOf(const BondSprings& k, const BondStrain& strain) {
+  return {k.along * strain.stretch, -(k.across * strain.shearT), -(k.across * strain.shearB),
+          -(k.twist * strain.twist), -(k.bend * strain.bendT), -(k.bend * strain.bendB)};
+}
+
+/// B7–B10: the largest of the stresses over its strength, r its length over the first one. 1 breaks.
+/// Stresses: along the bond (positive in compression), in the outermost fibre by bending, across it with what torsion adds.
+TSUBU_INLINE double bondLoad(const BondStrength& strength, const BondBody& body, const BondPull& pull, double r) {
+  const double area = bondPi * body.radius * body.radius, section = 0.25 * area * body.radius;  // I/r_b, half of J/r_b
+  const double axial = pull.fn / area, fibre = std::sqrt(pull.mt * pull.mt + pull.mb * pull.mb) / section;
+  const double shear = std::sqrt(pull.ft * pull.ft + pull.fb * pull.fb) / area + 0.5 * std::abs(pull.mn) / section;
+  const double resistance = strength.shear + strength.pressureSlope * larger(axial, 0);
+  return larger(larger((fibre - axial) / strength.tension, (fibre + axial) / strength.compression),
+                larger(shear / resistance, r / (body.length * strength.stretch)));
+}
+/// Is that less than 1? Without quotients and roots, which a loop over bonds would wait for: both sides of each comparison times A r_b.
+TSUBU_INLINE bool bondHolds(const BondStrength& strength, const BondBody& body, const BondPull& pull, double r) {
+  const double volume = bondPi * body.radius * body.radius * body.radius, push = pull.fn * body.radius;
+  const double fibre = smaller(strength.tension * volume + push, strength.compression * volume - push);  // left for 4 M
+  const double shear = strength.shear * volume + strength.pressureSlope * larger(push, 0) - 2 * std::abs(pull.mn);  // left for r_b F
+  const double bending2 = 16 * (pull.mt * pull.mt + pull.mb * pull.mb), shear2 = body.radius * body.radius * (pull.ft * pull.ft + pull.fb * pull.fb);
+  // Of a limit that is below zero already, the square says nothing.
+  const double over = larger(bending2 - fibre * larger(fibre, 0), shear2 - shear * larger(shear, 0));
+  return larger(over, r - strength.stretch * body.length) < 0;
+}
+
+/// A bond at both ends of a step: unit vectors along it, its lengths, and 1/(R_i + R_j).
+struct BondAxis {
+  V3 n0, n;
+  double r0, r;
+  double perRadiusSum;
+};
+/// \param d         x_i − x_j now
+/// \param velocity  with which it has come there
+TSUBU_INLINE BondAxis axisOf(V3 d, double radiusSum, V3 velocity, double dt) {
+  const V3 d0 = d - dt * velocity;
   const double r = norm(d), r0 = norm(d0);
   // One division for three reciprocals, here and below: divisions are what the loop waits for.
-  const double all = 1 / (r * r0 * radiusSum), inverseRadiusSum = all * r * r0;
-  const V3 n = (all * r0 * radiusSum) * d, n0 = (all * r * radiusSum) * d0;
-  // The frame: the smallest rotation from n0 to n, then about n with the mean spin of the grains.
-  const V3 mid = n0 + n;
-  const double angle = 0.5 * dt * inverseRadiusSum * dot(moved.spinSum, mid), quarter = 0.25 * angle * angle;
+  const double all = 1 / (r * r0 * radiusSum);
+  return {(all * r * radiusSum) * d0, (all * r0 * radiusSum) * d, r0, r, all * (r * r0)};
+}
+
+/// The rest of the frame (n, t, b) now, and of twice the mean of both ends of the step.
+struct BondFrame {
+  V3 t, b;
+  V3 sumT, sumB;
+};
+/// The smallest rotation from n0 to n, then about n with the mean spin of the grains.
+TSUBU_INLINE BondFrame turned(V3 t0, const BondAxis& axis, V3 spinSum, double dt) {
+  const V3 n0 = axis.n0, n = axis.n, sumN = n0 + n;
+  const double angle = 0.5 * dt * axis.perRadiusSum * dot(spinSum, sumN), quarter = 0.25 * angle * angle;
   const double bend = 1 + dot(n0, n), both = 1 / (bend * (1 + quarter));
-  V3 t = before.t - (dot(before.t, n) * (both * (1 + quarter))) * mid;
-  t = (both * bend) * ((1 - quarter) * t + angle * cross(n, t));
-  t = t - dot(t, n) * n;
-  t = (1.5 - 0.5 * norm2(t)) * t;
-  const V3 b = cross(n, t), b0 = cross(n0, before.t);
-  // B3, with frame and arms half-way.
-  const V3 halfN = 0.5 * mid, halfT = 0.5 * (before.t + t), halfB = 0.5 * (b0 + b);
-  const double arm = r * inverseRadiusSum, halfArm = 0.5 * (r0 + r) * inverseRadiusSum;
-  const double slipT = dt * (dot(moved.velocity, halfT) - halfArm * dot(moved.spinSum, halfB));
-  const double slipB = dt * (dot(moved.velocity, halfB) + halfArm * dot(moved.spinSum, halfT));
-  const double turnN = dt * dot(moved.spin, halfN), turnT = dt * dot(moved.spin, halfT), turnB = dt * dot(moved.spin, halfB);
-  const double stretchBefore = before.rest - r0;
-  double stretch = before.rest - r;
-  memory.t = t;
+  // At right angles to n, however exact t0 is; its length is held by a step of Newton's for 1/√.
+  const V3 laid = t0 - (dot(t0, n) * (both * (1 + quarter))) * sumN;
+  const double scale = both * bend * (1.5 - 0.5 * norm2(t0));
+  const V3 t = (scale * (1 - quarter)) * laid + (scale * angle) * cross(n, laid), b = cross(n, t);
+  return {t, b, t0 + t, cross(n0, t0) + b};
+}
+
+/// B3, with frame and arms half-way: by how much the springs are stretched further.
+TSUBU_INLINE BondStrain strainBy(const BondMotion& moved, const BondAxis& axis, V3 sumT, V3 sumB, double dt) {
+  const V3 sumN = axis.n0 + axis.n;
+  const double half = 0.5 * dt, arm = 0.5 * (axis.r0 + axis.r) * axis.perRadiusSum;
+  return {axis.r0 - axis.r,
+          half * (dot(moved.velocity, sumT) - arm * dot(moved.spinSum, sumB)),
+          half * (dot(moved.velocity, sumB) + arm * dot(moved.spinSum, sumT)),
+          half * dot(moved.spin, sumN),
+          half * dot(moved.spin, sumT),
+          half * dot(moved.spin, sumB)};
+}
+
+/// The springs at the end of the step.
+template <BondDamping damping>
+TSUBU_INLINE BondStrain stretched(const BondKind& kind, const BondStrain& before, const BondStrain& by, double dt) {
   if constexpr (damping == BondDamping::exponential) {
-    // (1 − ½ηΔt)/(1 + ½ηΔt) rather than 1 − ηΔt (Bond 11): second order, and the loss below is exact.
+    // (1 − ½ηΔt)/(1 + ½ηΔt) rather than 1 − ηΔt (Bond 11): second order, and what `relaxedIn` says is lost is exact.
     const auto relax = [&](BondWay way, double spring, double gain) {
       const double half = 0.5 * kind.eta[way] * dt;
       return ((1 - half) * spring + gain) / (1 + half);
     };
-    stretch = relax(along, stretchBefore, r0 - r);
-    memory.rest = stretch + r;
-    memory.shearT = relax(across, before.shearT, slipT);
-    memory.shearB = relax(across, before.shearB, slipB);
-    memory.twist = relax(twisting, before.twist, turnN);
-    memory.bendT = relax(bending, before.bendT, turnT);
-    memory.bendB = relax(bending, before.bendB, turnB);
-  } else {
-    memory.shearT = before.shearT + slipT;
-    memory.shearB = before.shearB + slipB;
-    memory.twist = before.twist + turnN;
-    memory.bendT = before.bendT + turnT;
-    memory.bendB = before.bendB + turnB;
+    return {relax(along, before.stretch, by.stretch), relax(across, before.shearT, by.shearT), relax(across, before.shearB, by.shearB),
+            relax(twisting, before.twist, by.twist),  relax(bending, before.bendT, by.bendT),  relax(bending, before.bendB, by.bendB)};
   }
-  // B2.
-  const double radius2 = body.radius * body.radius;
-  const double normalK = body.stiffness * bondPi * radius2, shearK = kind.shearOverNormal * normalK;
-  const double bendK = 0.25 * normalK * radius2, twistK = 2 * kind.shearOverNormal * bendK;
-  double fn = normalK * stretch, ft = -shearK * memory.shearT, fb = -shearK * memory.shearB;
-  double mn = -twistK * memory.twist, mt = -bendK * memory.bendT, mb = -bendK * memory.bendB;
+  return {before.stretch + by.stretch, before.shearT + by.shearT, before.shearB + by.shearB,
+          before.twist + by.twist,     before.bendT + by.bendT,   before.bendB + by.bendB};
+}
+
+/// B5: what relaxation has taken between two states, J.
+TSUBU_INLINE double relaxedIn(const BondKind& kind, const BondSprings& k, const BondStrain& a, const BondStrain& b, double dt) {
+  const auto lost = [&](BondWay way, double stiffness, double a1, double b1) {
+    const double mean = 0.5 * (a1 + b1);
+    return kind.eta[way] * stiffness * mean * mean;
+  };
+  return dt * (lost(along, k.along, a.stretch, b.stretch) + lost(across, k.across, a.shearT, b.shearT) +
+               lost(across, k.across, a.shearB, b.shearB) + lost(twisting, k.twist, a.twist, b.twist) +
+               lost(bending, k.bend, a.bendT, b.bendT) + lost(bending, k.bend, a.bendB, b.bendB));
+}
+
+TSUBU_INLINE double signOf(double v) { return v > 0 ? 1.0 : (v < 0 ? -1.0 : 0.0); }
+
+/// B4, B6: takes from the pull what dampers hold back, and returns what they take from the energy in the step, J.
+template <BondDamping damping>
+TSUBU_INLINE double dampPull(const BondKind& kind, const BondBody& body, const BondMotion& now, V3 n, V3 t, V3 b, double arm, double dt,
+                             BondPull& pull) {
+  const double vn = dot(now.velocity, n);
+  const double vt = dot(now.velocity, t) - arm * dot(now.spinSum, b), vb = dot(now.velocity, b) + arm * dot(now.spinSum, t);
+  const double wn = dot(now.spin, n), wt = dot(now.spin, t), wb = dot(now.spin, b);
+  const auto damp = [&](BondWay way, double& force, double v, double dashpot) {
+    const double part = damping == BondDamping::percent ? kind.eta[way] * std::abs(force) * signOf(v) : kind.eta[way] * dashpot * v;
+    force -= part;
+    return part * v;
+  };
+  return dt * (damp(along, pull.fn, vn, body.critical) + damp(across, pull.ft, vt, body.critical) +
+               damp(across, pull.fb, vb, body.critical) + damp(twisting, pull.mn, wn, body.bendCritical) +
+               damp(bending, pull.mt, wt, body.bendCritical) + damp(bending, pull.mb, wb, body.bendCritical));
+}
+
+/// The pull as vectors.
+TSUBU_INLINE void resolve(const BondPull& pull, V3 n, V3 t, V3 b, double arm, BondForce& to) {
+  to.force = pull.fn * n + pull.ft * t + pull.fb * b;
+  to.couple = (arm * pull.ft) * b - (arm * pull.fb) * t;
+  to.moment = pull.mn * n + pull.mt * t + pull.mb * b;
+}
+
+/// Stretches the springs of a bond whose frame has been turned, and says how they were before.
+template <BondDamping damping>
+TSUBU_INLINE BondStrain stretchBond(const BondKind& kind, const BondAxis& axis, V3 sumT, V3 sumB, const BondMotion& moved, double dt,
+                                    BondMemory& memory) {
+  const BondStrain before = strainOf(memory, axis.r0);
+  const BondStrain now = stretched<damping>(kind, before, strainBy(moved, axis, sumT, sumB, dt), dt);
+  if constexpr (damping == BondDamping::exponential) memory.rest = now.stretch + axis.r;
+  memory.shearT = now.shearT, memory.shearB = now.shearB;
+  memory.twist = now.twist, memory.bendT = now.bendT, memory.bendB = now.bendB;
+  return before;
+}
+
+/// \brief What a bond does, with its springs as they are now.
+/// \param before  the springs at the beginning of the step; read by B5 only
+/// \param now     motion of the instant; read by dampers only
+template <BondDamping damping, bool breakable>
+TSUBU_INLINE BondForce pullBond(const BondKind& kind, const BondBody& body, const BondMemory& memory, const BondStrain& before, V3 n, V3 b,
+                                double r, double perRadiusSum, const BondMotion& now, double dt) {
+  const BondSprings springs = springsOf(body, kind.shearOverNormal);
+  const BondStrain strain = strainOf(memory, r);
+  const double arm = r * perRadiusSum;
+  BondPull pull = pullOf(springs, strain);
   BondForce result{};
   result.holds = true;
-  if constexpr (breakable) {
-    result.holds = bondHolds(kind, bondStress(body.radius, fn, ft * ft + fb * fb, mn, mt * mt + mb * mb), r, body.length);
-    result.released = springProduct(body, kind.shearOverNormal, stretchBefore, stretch, before, memory);
-  }
-  if constexpr (damping == BondDamping::exponential) {
-    const auto lost = [&](BondWay way, double stiffness, double a, double b1) {
-      const double mean = 0.5 * (a + b1);
-      return kind.eta[way] * stiffness * mean * mean;
-    };
-    result.relaxed = dt * (lost(along, normalK, stretchBefore, stretch) + lost(across, shearK, before.shearT, memory.shearT) +
-                           lost(across, shearK, before.shearB, memory.shearB) + lost(twisting, twistK, before.twist, memory.twist) +
-                           lost(bending, bendK, before.bendT, memory.bendT) + lost(bending, bendK, before.bendB, memory.bendB));
-  }
-  if constexpr (damping == BondDamping::percent || damping == BondDamping::viscous) {
-    const double vn = dot(now.velocity, n);
-    const double vt = dot(now.velocity, t) - arm * dot(now.spinSum, b), vb = dot(now.velocity, b) + arm * dot(now.spinSum, t);
-    const double wn = dot(now.spin, n), wt = dot(now.spin, t), wb = dot(now.spin, b);
-    const auto damp = [&](BondWay way, double& force, double v, double dashpot) {
-      const double part = damping == BondDamping::percent ? kind.eta[way] * std::abs(force) * signOf(v) : kind.eta[way] * dashpot * v;
-      force -= part;
-      return part * v;
-    };
-    result.loss = dt * (damp(along, fn, vn, body.critical) + damp(across, ft, vt, body.critical) + damp(across, fb, vb, body.critical) +
-                        damp(twisting, mn, wn, body.bendCritical) + damp(bending, mt, wt, body.bendCritical) +
-                        damp(bending, mb, wb, body.bendCritical));
-  }
-  result.arm = arm;
-  result.force = fn * n + ft * t + fb * b;
-  result.couple = ft * b - fb * t;
-  result.moment = mn * n + mt * t + mb * b;
+  if constexpr (breakable) result.holds = bondHolds(kind.strength, body, pull, r);
+  if constexpr (damping == BondDamping::exponential) result.relaxed = relaxedIn(kind, springs, before, strain, dt);
+  if constexpr (damping == BondDamping::percent || damping == BondDamping::viscous)
+    result.loss = dampPull<damping>(kind, body, now, n, memory.t, b, arm, dt, pull);
+  resolve(pull, n, memory.t, b, arm, result);
   return result;
+}
+
+/// One step of one bond: advances the memory and returns what the bond does. The kernels take many bonds through these four parts one
+/// after the other (kernel/bond_passes.h).
+template <BondDamping damping, bool breakable>
+TSUBU_INLINE BondForce stepBond(const BondKind& kind, const BondBody& body, V3 d, double radiusSum, const BondMotion& moved,
+                                const BondMotion& now, double dt, BondMemory& memory) {
+  const BondAxis axis = axisOf(d, radiusSum, moved.velocity, dt);
+  const BondFrame frame = turned(memory.t, axis, moved.spinSum, dt);
+  memory.t = frame.t;
+  const BondStrain before = stretchBond<damping>(kind, axis, frame.sumT, frame.sumB, moved, dt, memory);
+  return pullBond<damping, breakable>(kind, body, memory, before, axis.n, frame.b, axis.r, axis.perRadiusSum, now, dt);
 }
 
 }  // namespace tsubu::sim

@@ -416,9 +416,8 @@ void BondPass::make(const World& world, std::size_t number) {
 
 namespace {
 double storedIn(const World& world, const BondKind& constants, const BondColumns& bonds, std::size_t k, const GrainRow& a, const GrainRow& b) {
-  const BondMemory memory = bonds.memory(k);
-  const double stretch = memory.rest - distanceOf(world, a, b);
-  return springProduct(bonds.body(k), constants.shearOverNormal, stretch, stretch, memory, memory);
+  const BondStrain strain = strainOf(bonds.memory(k), distanceOf(world, a, b));
+  return springProduct(springsOf(bonds.body(k), constants.shearOverNormal), strain, strain);
 }
 }  // namespace
 
@@ -453,7 +452,7 @@ void BondPass::addLinks(const World& world, std::vector<Link>& links) const {
     const BondBody body = bonds.body(k);
     const BondKind& c = kind.constants;
     const bool viscous = kind.bonding->damping == BondDamping::viscous, percent = kind.bonding->damping == BondDamping::percent;
-    const double normalK = body.stiffness * bondPi * body.radius * body.radius, bendK = 0.25 * normalK * body.radius * body.radius;
+    const BondSprings springs = springsOf(body, c.shearOverNormal);
     const auto spring = [&](BondWay way, double stiffness, double critical) {
       return Link::Spring{stiffness * (percent ? 1 + c.eta[way] : 1), viscous ? c.eta[way] * critical : 0};
     };
@@ -464,10 +463,10 @@ void BondPass::addLinks(const World& world, std::vector<Link>& links) const {
     link.firstLever = wall ? length : length * a.radius / (a.radius + b.radius);
     link.secondLever = length - link.firstLever;
     link.inverseMass = a.inverseMass + (wall ? 0 : b.inverseMass);
-    link.along = spring(along, normalK, body.critical);
-    link.across = spring(across, c.shearOverNormal * normalK, body.critical);
-    link.rolling = spring(bending, bendK, body.bendCritical);
-    link.twisting = spring(twisting, 2 * c.shearOverNormal * bendK, body.bendCritical);
+    link.along = spring(along, springs.along, body.critical);
+    link.across = spring(across, springs.across, body.critical);
+    link.rolling = spring(bending, springs.bend, body.bendCritical);
+    link.twisting = spring(twisting, springs.twist, body.bendCritical);
     link.bond = true;
     links.push_back(link);
   });
@@ -484,13 +483,9 @@ void BondPass::show(const World& world, Snapshot& snapshot) const {
     const GrainRow& first = world.state.rows[static_cast<std::size_t>(bonds.i[k])];
     const Vec3 a = positionOf(first), b = a - between(world, first, second[static_cast<std::size_t>(bonds.j[k])]);
     const BondBody body = bonds.body(k);
-    const BondMemory m = bonds.memory(k);
-    const double area = bondPi * body.radius * body.radius, normalK = body.stiffness * area, bendK = 0.25 * normalK * body.radius * body.radius;
-    const double shearK = kind.constants.shearOverNormal * normalK, twistK = 2 * kind.constants.shearOverNormal * bendK;
     const double r = (a - b).norm();
-    const BondStress stress = bondStress(body.radius, normalK * (m.rest - r), shearK * shearK * (m.shearT * m.shearT + m.shearB * m.shearB),
-                                         twistK * m.twist, bendK * bendK * (m.bendT * m.bendT + m.bendB * m.bendB));
-    snapshot.bonds.push_back({a, b, body.radius, bondLoad(kind.constants, stress, r / body.length), -1});
+    const BondPull pull = pullOf(springsOf(body, kind.constants.shearOverNormal), strainOf(bonds.memory(k), r));
+    snapshot.bonds.push_back({a, b, body.radius, bondLoad(kind.constants.strength, body, pull, r), -1});
   });
   for (const Break& each : breaks_) snapshot.bonds.push_back({each.first, each.second, each.radius, 0, world.time - each.time});
 }

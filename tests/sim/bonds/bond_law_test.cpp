@@ -52,13 +52,13 @@ struct Led {
       loss += force.loss + force.relaxed;
     }
   }
-  Vec3 torqueI() const { return -ri * force.arm * vec(force.couple) + vec(force.moment); }
-  Vec3 torqueJ() const { return -rj * force.arm * vec(force.couple) - vec(force.moment); }
+  Vec3 torqueI() const { return -ri * vec(force.couple) + vec(force.moment); }
+  Vec3 torqueJ() const { return -rj * vec(force.couple) - vec(force.moment); }
   double area() const { return bondPi * body.radius * body.radius; }
   double inertia() const { return bondPi * std::pow(body.radius, 4) / 4; }
   double stored() const {
-    const double stretch = memory.rest - d.norm();
-    return springProduct(body, 1 / bonding.stiffnessRatio, stretch, stretch, memory, memory);
+    const BondStrain strain = strainOf(memory, d.norm());
+    return springProduct(springsOf(body, 1 / bonding.stiffnessRatio), strain, strain);
   }
 };
 
@@ -183,19 +183,19 @@ TEST(BondLaw, ExponentialForgets) {
 
 // B7–B10, with the stresses of Bond (13); in compression those of the far fibre.
 TEST(BondLaw, LoadIsTheWorstStressOverItsStrength) {
-  Bonding bonding;
   const double r = 0.8e-3, area = bondPi * r * r, inertia = bondPi * std::pow(r, 4) / 4;
   const double force = 3.0, bend = 1e-3, shear = 2.0, torsion = 5e-4;
-  const auto load = [&](BondStrength strength, double normal, double q, double t, double m) {
-    bonding.strength = strength;
-    const BondKind kind = kindOf(bonding);
+  const BondBody body{r, 0, 2e-3, 0, 0};
+  const auto load = [&](const BondStrength& strength, double normal, double q, double t, double m) {
+    const auto pull = [&](double scale) {
+      return BondPull{scale * normal, scale * 0.6 * q, scale * -0.8 * q, scale * t, scale * -0.8 * m, scale * 0.6 * m};
+    };
     // What the loop asks is the same question, whatever the size of the load.
     for (double scale = 0.05; scale < 60; scale *= 1.07) {
-      const BondStress stress = bondStress(r, scale * normal, std::pow(scale * q, 2), scale * t, std::pow(scale * m, 2));
-      EXPECT_EQ(bondHolds(kind, stress, 2e-3 * 1.25, 2e-3), bondLoad(kind, stress, 1.25) < 1) << scale;
-      EXPECT_EQ(bondHolds(kind, stress, 2e-3 * scale, 2e-3), bondLoad(kind, stress, scale) < 1) << scale;
+      EXPECT_EQ(bondHolds(strength, body, pull(scale), 1.25 * body.length), bondLoad(strength, body, pull(scale), 1.25 * body.length) < 1) << scale;
+      EXPECT_EQ(bondHolds(strength, body, pull(scale), scale * body.length), bondLoad(strength, body, pull(scale), scale * body.length) < 1) << scale;
     }
-    return bondLoad(kind, bondStress(r, normal, q * q, t, m * m), 1.25);
+    return bondLoad(strength, body, pull(1), 1.25 * body.length);
   };
   const double never = BondStrength::never, bent = bend * r / inertia, axial = force / area;
   EXPECT_NEAR(load({2e6, never, never, 0, never}, -force, 0, 0, bend), (axial + bent) / 2e6, 1e-12);
