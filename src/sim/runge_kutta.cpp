@@ -235,7 +235,7 @@ Motion RungeKutta::finish(State& state, PairLists& pairs, WallPass& walls, doubl
     GrainRow& row = state.rows[k];
     setRow(row, grain.start.x + dt * grain.sum.x, grain.start.v + dt * grain.sum.v, grain.start.s + dt * grain.sum.s);
     if (state.turns) state.orientation[k] = Quat(grain.start.q.coeffs() + dt * grain.sum.q.coeffs()).normalized();
-    motion.add(norm2(grain.sum.x), dt * row.inverseRadius);
+    motion.add(norm2(grain.sum.x), dt * row.inverseRadius, state.perSkin2[k]);
   }
   walls.slabs() = wallsAtStart_;
   for (std::size_t s = 0; s < pairs_.size(); ++s) {

@@ -65,7 +65,7 @@ bool WallPass::touches(const Vec3& centre, double radius) const {
   return false;
 }
 
-void WallPass::build(const State& state, const Slabs& slabs, double skin, double dt, const std::vector<std::int32_t>& newPlace, ThreadTeam& team) {
+void WallPass::build(const State& state, const Slabs& slabs, double wallSkin, double dt, const std::vector<std::int32_t>& newPlace, ThreadTeam& team) {
   settle();
   // Contacts in force, by grain in the new order.
   struct Old {
@@ -98,15 +98,16 @@ void WallPass::build(const State& state, const Slabs& slabs, double skin, double
     for (std::int32_t g = slabs.begin(s); g < slabs.end(s); ++g) {
       const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
       const Vec3 centre = centreOf(row), velocity(row.vx, row.vy, row.vz);
+      const double reach = row.radius + state.skin[static_cast<std::size_t>(g)] + wallSkin;
       for (std::size_t w = 0; w < walls_->size(); ++w) {
         const Pose& pose = places_[w].pose;
         const Vec3 travel = dt * (velocity - places_[w].twist.at(centre));
         if (const auto& plane = places_[w].plane) {
-          const double away = plane->signedDistance(centre) - row.radius - skin;
+          const double away = plane->signedDistance(centre) - reach;
           if (away > 0 && away * away > travel.squaredNorm()) continue;
         }
         const Vec3 local = pose.toLocal(centre);
-        (*walls_)[w].surface->candidates(local, row.radius + skin + travel.norm(), features);
+        (*walls_)[w].surface->candidates(local, reach + travel.norm(), features);
         if (features.empty()) continue;
         WallGroup group;
         group.grain = g;

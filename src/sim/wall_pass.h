@@ -70,9 +70,10 @@ class WallPass {
   /// What the grains did to the walls that move under load, in the order of these, in the last step.
   std::vector<WallLoad> loads() const;
 
-  /// New candidates for grains in their new order; memory goes along. `newPlace`: old place → new place, −1 for gone. `dt`: of the
+  /// New candidates for grains in their new order; memory goes along. They hold until a grain has gone as far as its skin or a wall as far as
+  /// `wallSkin` (m). `newPlace`: old place → new place, −1 for gone. `dt`: of the
   /// step that has just been made (0: none yet), so that a grain that came from behind a wall is found out.
-  void build(const State& state, const Slabs& slabs, double skin, double dt, const std::vector<std::int32_t>& newPlace, ThreadTeam& team);
+  void build(const State& state, const Slabs& slabs, double wallSkin, double dt, const std::vector<std::int32_t>& newPlace, ThreadTeam& team);
 
   /// The walls are where they will be in this step: before the slabs are evaluated.
   void settle();

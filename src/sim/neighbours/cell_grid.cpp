@@ -21,20 +21,21 @@ int CellGrid::level(double radius) const {
   return level;
 }
 
-void CellGrid::build(const std::vector<GrainRow>& rows, double reach) {
+void CellGrid::build(const std::vector<GrainRow>& rows, double reach, const std::vector<double>& skins) {
   rows_ = &rows;
+  radius_.resize(rows.size());
+  for (std::size_t g = 0; g < rows.size(); ++g) radius_[g] = rows[g].radius + (skins.empty() ? 0 : skins[g]);
   reach_ = reach;
   largest_ = 0;
   levels_.clear();
   if (rows.empty()) return;
-  const auto [smallest, largest] =
-      std::minmax_element(rows.begin(), rows.end(), [](const GrainRow& a, const GrainRow& b) { return a.radius < b.radius; });
-  largest_ = largest->radius;
+  const double smallest = *std::min_element(radius_.begin(), radius_.end());
+  largest_ = *std::max_element(radius_.begin(), radius_.end());
   // A spread below 1.5 is served best by one level.
-  finest_ = 2 * (largest->radius < 1.5 * smallest->radius ? largest->radius : smallest->radius) + reach;
-  std::vector<std::vector<std::int32_t>> members(static_cast<std::size_t>(level(largest->radius)) + 1);
+  finest_ = 2 * (largest_ < 1.5 * smallest ? largest_ : smallest) + reach;
+  std::vector<std::vector<std::int32_t>> members(static_cast<std::size_t>(level(largest_)) + 1);
   for (std::size_t g = 0; g < rows.size(); ++g)
-    members[static_cast<std::size_t>(level(rows[g].radius))].push_back(static_cast<std::int32_t>(g));
+    members[static_cast<std::size_t>(level(radius_[g]))].push_back(static_cast<std::int32_t>(g));
   levels_.resize(members.size());
   double edge = finest_;
   for (std::size_t l = 0; l < members.size(); ++l, edge *= 2) {
@@ -100,7 +101,7 @@ void CellGrid::near(const Vec3& x, double radius, std::int32_t self, std::vector
         const std::int32_t j = level.entries[static_cast<std::size_t>(e)];
         if (j == self) continue;
         const GrainRow& other = (*rows_)[static_cast<std::size_t>(j)];
-        const double cut = radius + other.radius + reach_;
+        const double cut = radius + radius_[static_cast<std::size_t>(j)] + reach_;
         const double dx = x.x() - other.x, dy = x.y() - other.y, dz = x.z() - other.z;
         if (dx * dx + dy * dy + dz * dz < cut * cut) found.push_back(j);
       }

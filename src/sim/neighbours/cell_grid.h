@@ -13,20 +13,19 @@ namespace tsubu::sim {
 class CellGrid {
  public:
   /// \param reach  m: pairs are wanted whose surfaces are nearer than this
-  void build(const std::vector<GrainRow>& rows, double reach);
+  /// \param skins  m: by which the radius of each grain counts as larger; empty: nothing
+  void build(const std::vector<GrainRow>& rows, double reach, const std::vector<double>& skins = {});
 
-  /// Appends all grains j with |x_j − x| < r + r_j + reach, except `self`, in no particular order.
+  /// Appends all grains j with |x_j − x| < r + r_j + s_j + reach, except `self`, in no particular order.
   void near(const Vec3& x, double radius, std::int32_t self, std::vector<std::int32_t>& found) const;
 
   /// Writes from place `count` on all grains that may be as near as that and make a pair with grain `self` (at x) not yet seen from the
-  /// other side: in the level of its radius those with higher numbers, in coarser levels all, in finer ones none. Returns the new
+  /// other side (`radius` with its skin): in the level of its radius those with higher numbers, in coarser levels all, in finer ones none. Returns the new
   /// count; `found` grows as needed. Which of them are near is for the caller to find out, many at once.
   std::size_t partners(const Vec3& x, double radius, std::int32_t self, std::vector<std::int32_t>& found, std::size_t count) const;
 
   /// m: how far from a point a sphere of this radius may meet a listed partner.
   double farthest(double radius) const { return radius + largest_ + reach_; }
-
-  double reach() const { return reach_; }
 
  private:
   /// Number of the level a radius belongs to.
@@ -45,8 +44,9 @@ class CellGrid {
   void visitRuns(const Level& level, const Vec3& x, double radius, Visit&& visit) const;
 
   const std::vector<GrainRow>* rows_ = nullptr;
+  std::vector<double> radius_;  // of each grain, skin included
   double reach_ = 0;
-  double largest_ = 0;  // radius
+  double largest_ = 0;  // radius, skin included
   double finest_ = 0;  // edge of level 0
   std::vector<Level> levels_;
 };
