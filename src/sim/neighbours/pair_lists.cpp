@@ -98,31 +98,19 @@ void PairLists::placeRemembered(std::size_t grains, const std::vector<std::int32
 
 void PairLists::searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, FlatPairs& own,
                            FlatPairs& before) const {
-  // Candidates of some grains at a time, as many as lie in the first-level cache with their grains.
-  constexpr std::size_t some = 2048;
-  std::vector<std::int32_t> grains, partners, near;
-  std::size_t count = 0;
-  const auto sift = [&] {
-    near.resize(count + 3);
-    const auto found =
-        kernels().grains->nearPairs(state.rows.data(), state.skin.data(), 1, grains.data(), partners.data(), static_cast<std::int64_t>(count), near.data());
-    for (std::int64_t n = 0; n < found; ++n) {
-      const auto k = static_cast<std::size_t>(near[static_cast<std::size_t>(n)]);
-      const std::int32_t i = std::min(grains[k], partners[k]), j = std::max(grains[k], partners[k]);
-      std::vector<std::int32_t>& list = i >= slabs.begin(slab) ? own : before;
+  const std::int32_t first = slabs.begin(slab);
+  std::vector<std::int32_t> partners;
+  own.reserve(16 * static_cast<std::size_t>(slabs.end(slab) - first));
+  for (std::int32_t g = first; g < slabs.end(slab); ++g) {
+    const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
+    const std::size_t count = grid.partners(Vec3(row.x, row.y, row.z), row.radius + state.skin[static_cast<std::size_t>(g)], g, partners);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::int32_t i = std::min(g, partners[k]), j = std::max(g, partners[k]);
+      FlatPairs& list = i >= first ? own : before;
       list.push_back(i);
       list.push_back(j);
     }
-    grains.clear();
-    count = 0;
-  };
-  for (std::int32_t g = slabs.begin(slab); g < slabs.end(slab); ++g) {
-    const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
-    count = grid.partners(Vec3(row.x, row.y, row.z), row.radius + state.skin[static_cast<std::size_t>(g)], g, partners, count);
-    grains.resize(count, g);
-    if (count >= some) sift();
   }
-  sift();
 }
 
 // Of the two ways to see a pair across the boundary one is taken: shifts with a positive number.
