@@ -26,8 +26,7 @@ constexpr std::size_t fitsCache = 60'000;
 
 // Neighbour lists: the steps that a skin is to last, its bounds in terms of the smallest radius; the share of it that belongs to the inner
 // lists, and what this may be at most in terms of that radius.
-
-constexpr double skinSteps = 150, leastSkin = 0.1, mostSkin = 0.9, mostInnerShare = 0.1, mostInner = 0.1;
+constexpr double skinSteps = 250, leastSkin = 0.1, mostSkin = 1.3, mostInnerShare = 0.1, mostInner = 0.1;
 
 }  // namespace
 

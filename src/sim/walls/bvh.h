@@ -25,6 +25,13 @@ class Bvh {
     walk([&](const Box& box) { return meets(box, a, b); }, visit);
   }
 
+  /// Does any box meet the given one?
+  bool meetsAny(const Box& other) const {
+    bool any = false;
+    walk([&](const Box& box) { return !any && box.intersects(other); }, [&](std::uint32_t) { any = true; });
+    return any;
+  }
+
   /// Calls visit(item) for every box that meets the given one.
   template <class Visit>
   void overlapping(const Box& other, Visit&& visit) const {

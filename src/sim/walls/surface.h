@@ -55,12 +55,19 @@ class Surface {
   /// Replaces `features` by those with a point nearer than `reach` to `centre` (m), in ascending order.
   void candidates(const Vec3& centre, double reach, std::vector<std::uint32_t>& features) const;
 
+  /// May a point of the wall lie in the box (m)? No is certain.
+  bool mayMeet(const Box& box) const;
+
   /// Where the distance from the centre to the wall is locally least and below `radius`, with all weights 1, in ascending order of
   /// feature. `candidates`: ascending, holding at least every feature nearer than `radius`. No allocation.
   void nearestPoints(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates, WallContacts& contacts) const;
 
   /// The contacts of a sphere: its nearest points with the load shared between them (shareLoad).
   void contacts(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates, WallContacts& contacts) const;
+
+  /// m: how far the centre of a sphere may go before the feature can be one of its contacts, as far as that is easily said; 0 when it may be one
+  /// now. A feature is out of question where it is farther than `radius`, but also where others on it come nearer.
+  double refusal(std::uint32_t feature, const Vec3& centre, double radius) const;
 
   /// m: how far the centre of a sphere may go before it can touch one of the candidates; 0 when it may touch now.
   double clearance(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates) const;
