@@ -184,13 +184,14 @@ void Simulation::Impl::bookArrivals() {
 /// `near` is room to work in.
 bool Simulation::Impl::touchesGrain(const Vec3& centre, double radius, std::vector<std::int32_t>& near) const {
   near.clear();
-  // The grid knows the cells as they were at the last rebuild; skins cover what grains have moved since.
+  // The grid knows places as they were at the last rebuild; skins cover what grains have moved since, up to the last step.
+  const double around = radius + fastest * model.timeStep;
   if (rebuildNeeded) {
     for (std::size_t g = 0; g < state.size(); ++g) near.push_back(static_cast<std::int32_t>(g));
   } else {
     const Vec3 inside = periods.wrapped(centre);
-    grid.near(inside, radius, -1, near);
-    periods.forImages(inside, grid.farthest(radius), [&](int shift) { grid.near(inside + periods.shift(shift), radius, -1, near); });
+    grid.near(inside, around, -1, near);
+    periods.forImages(inside, grid.farthest(around), [&](int shift) { grid.near(inside + periods.shift(shift), around, -1, near); });
   }
   return std::any_of(near.begin(), near.end(), [&](std::int32_t g) {
     const GrainRow& row = state.rows[static_cast<std::size_t>(g)];

@@ -24,9 +24,10 @@ constexpr std::uint64_t watchEvery = 64, watchEveryWithLedger = 16;
 // Grains that a cache of some 16 MB holds: asking for rows ahead of time pays beyond, and costs a little below.
 constexpr std::size_t fitsCache = 60'000;
 
-// Neighbour lists: the steps that a skin is to last, its bounds in terms of the smallest radius; the share of it that belongs to the inner
-// lists, and what this may be at most in terms of that radius.
-constexpr double skinSteps = 250, leastSkin = 0.1, mostSkin = 1.3, mostInnerShare = 0.1, mostInner = 0.1;
+// Neighbour lists: the steps that a skin is to last, and its bounds in terms of the smallest radius. Magnets reach farther by it, and lists of
+// them are longer. Then the share of it that belongs to the inner lists, and the bounds of that in terms of the radius.
+constexpr double skinSteps = 250, leastSkin = 0.1, mostSkin = 1.3, mostSkinOfMagnets = 0.6;
+constexpr double usualInnerShare = 0.1, mostInnerShare = 0.5, leastInner = 0.01, mostInner = 0.15;
 
 }  // namespace
 
@@ -364,7 +365,7 @@ void Simulation::Impl::giveSkins() {
     largest = std::max(largest, state.rows[g].radius);
   }
   if (state.size() == 0) smallest = largest = 1;
-  SkinRule rule{skinSteps * model.timeStep, leastSkin * smallest, mostSkin * smallest};
+  SkinRule rule{skinSteps * model.timeStep, leastSkin * smallest, (model.magnets ? mostSkinOfMagnets : mostSkin) * smallest};
   if (model.skin > 0) rule.least = rule.most = 0.5 * model.skin;
   const bool moves = !moving.empty() || std::any_of(model.walls.begin(), model.walls.end(), [](const Wall& wall) { return !wall.motion.still(); });
   wallSkin = moves ? std::clamp(skinSteps * std::max(wallStep, bodyStep), rule.least, rule.most) : 0;
@@ -373,7 +374,8 @@ void Simulation::Impl::giveSkins() {
     if (periods.along(axis)) rule.most = std::min(rule.most, 0.25 * periods.length(axis) - largest);
   rule.least = std::min(rule.least, rule.most);
   state.skin = chooseSkins(state.rows, rule);
-  innerShare = std::min(mostInnerShare, mostInner * smallest / rule.most);
+  largestSkin = state.skin.empty() ? 0 : *std::max_element(state.skin.begin(), state.skin.end());
+  innerShare = std::min({std::max(usualInnerShare, leastInner * smallest / rule.least), mostInnerShare, mostInner * smallest / largestSkin});
 }
 
 // Grains that have left a periodic domain go on at its other end. Under gravity that is work (E5): they may fall for ever.
@@ -410,11 +412,7 @@ void Simulation::Impl::rebuildLists() {
   pairs.rememberContacts();
   std::vector<std::int32_t> order;
   double reach = 0;
-  largestSkin = 0;
-  for (std::size_t g = 0; g < state.size(); ++g) {
-    reach = std::max(reach, 2 * (state.rows[g].radius + state.skin[g]));
-    largestSkin = std::max(largestSkin, state.skin[g]);
-  }
+  for (std::size_t g = 0; g < state.size(); ++g) reach = std::max(reach, 2 * (state.rows[g].radius + state.skin[g]));
   slabs = sortIntoSlabs(state.rows, reach, order);
   std::vector<std::int32_t> newPlace(order.size());
   for (std::size_t g = 0; g < order.size(); ++g) newPlace[static_cast<std::size_t>(order[g])] = static_cast<std::int32_t>(g);
