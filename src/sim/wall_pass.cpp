@@ -108,40 +108,59 @@ void WallPass::build(const State& state, const Slabs& slabs, double wallSkin, do
   });
 }
 
-// Grains lie in the order of cells: if a few of them together have no wall near, each of them need not be looked at.
+/// A few grains that lie beside each other, since grains lie in the order of cells.
+struct WallPass::Few {
+  std::int32_t begin, end;
+  Box box;                           // of their centres, world
+  double reach = 0, fastest2 = 0;  // the largest of theirs: m from the centre, m²/s²
+};
+
+std::vector<WallPass::Few> WallPass::fewByFew(const State& state, std::int32_t begin, std::int32_t end, double wallSkin) {
+  constexpr std::int32_t size = 8;
+  std::vector<Few> all;
+  for (std::int32_t from = begin; from < end; from += size) {
+    Few few{from, std::min(end, from + size), {}};
+    for (std::int32_t g = few.begin; g < few.end; ++g) {
+      const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
+      few.box.extend(centreOf(row));
+      few.reach = std::max(few.reach, row.radius + state.skin[static_cast<std::size_t>(g)] + wallSkin);
+      few.fastest2 = std::max(few.fastest2, norm2(row.velocity()));
+    }
+    all.push_back(few);
+  }
+  return all;
+}
+
+// Where none of a few grains can be near the wall, each of them need not be looked at.
+bool WallPass::mayMeet(std::size_t wall, const Few& few, double dt) const {
+  const WallPlace& place = places_[wall];
+  const Vec3 middle = few.box.center(), half = 0.5 * few.box.sizes();
+  const double wallSpeed = place.twist.at(middle).norm() + place.twist.angularVelocity.norm() * half.norm();
+  const double reach = few.reach + dt * (std::sqrt(few.fastest2) + wallSpeed);
+  const Vec3 around = place.rotation.transpose().cwiseAbs() * half + Vec3::Constant(reach), local = place.toLocal(middle);
+  return (*walls_)[wall].surface->mayMeet(Box(local - around, local + around));
+}
+
 void WallPass::buildSlab(const State& state, std::int32_t begin, std::int32_t end, double wallSkin, double dt, const std::vector<Old>& old,
                          SlabWalls& slab) const {
-  constexpr std::int32_t few = 8;
   slab.stateSize = static_cast<std::size_t>(law_.stateSize);
   std::vector<std::uint32_t> features;
-  std::array<Vec3, few> travel, local;
-  std::array<double, few> reach;
+  const std::vector<Few> all = fewByFew(state, begin, end, wallSkin);
   for (std::size_t w = 0; w < walls_->size(); ++w) {
     const WallPlace& place = places_[w];
-    const Surface& surface = *(*walls_)[w].surface;
     slab.firstGroup.push_back(static_cast<std::int32_t>(slab.groups.size()));
-    for (std::int32_t from = begin; from < end; from += few) {
-      const std::int32_t to = std::min(end, from + few);
-      Box box;
-      for (std::int32_t g = from; g < to; ++g) {
+    for (const Few& few : all) {
+      if (!mayMeet(w, few, dt)) continue;
+      for (std::int32_t g = few.begin; g < few.end; ++g) {
         const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
-        const auto k = static_cast<std::size_t>(g - from);
-        travel[k] = dt * (Vec3(row.vx, row.vy, row.vz) - place.twist.at(centreOf(row)));
-        local[k] = place.toLocal(centreOf(row));
-        reach[k] = row.radius + state.skin[static_cast<std::size_t>(g)] + wallSkin + travel[k].norm();
-        box.extend(Vec3(local[k] - Vec3::Constant(reach[k])));
-        box.extend(Vec3(local[k] + Vec3::Constant(reach[k])));
-      }
-      if (!surface.mayMeet(box)) continue;
-      for (std::int32_t g = from; g < to; ++g) {
-        const auto k = static_cast<std::size_t>(g - from);
-        surface.candidates(local[k], reach[k], features);
-        if (!features.empty()) addGroup(state, g, w, local[k] - place.rotation.transpose() * travel[k], features, old, slab);
+        const Vec3 centre = centreOf(row), local = place.toLocal(centre), travel = dt * (Vec3(row.vx, row.vy, row.vz) - place.twist.at(centre));
+        const double reach = row.radius + state.skin[static_cast<std::size_t>(g)] + wallSkin + travel.norm();
+        (*walls_)[w].surface->candidates(local, reach, features);
+        if (!features.empty()) addGroup(state, g, w, local - place.rotation.transpose() * travel, features, old, slab);
       }
     }
   }
   slab.firstGroup.push_back(static_cast<std::int32_t>(slab.groups.size()));
-  slab.memory.resize(slab.candidates.size() * slab.stateSize);
   slab.awake.resize(slab.candidates.size());
   slab.awakeFeatures.resize(slab.candidates.size());
 }
@@ -199,6 +218,7 @@ void WallPass::settle() {
   for (std::size_t w = 0; w < places_.size(); ++w) {
     WallPlace& place = places_[w];
     place.rotation = place.pose.rotation.toRotationMatrix();
+    place.turns = place.twist.angularVelocity != Vec3::Zero();
     place.plane = (*walls_)[w].surface->asPlane();
     if (!place.plane) continue;
     place.plane->normal = place.rotation * place.plane->normal;
@@ -278,6 +298,11 @@ void WallPass::wake(const Surface& surface, const Vec3& centre, double radius, d
     const auto k = static_cast<std::size_t>(group.first + group.awake++);
     slab.awake[k] = c;
     slab.awakeFeatures[k] = candidate.feature;
+    if (!surface.isFace(candidate.feature)) continue;
+    const double over = surface.stayOver(candidate.feature, centre, radius);
+    if (over <= margin) continue;
+    slab.awakeFeatures[k] |= Surface::surelyOver;
+    way.room = std::min(way.room, over);
   }
 }
 
@@ -369,8 +394,9 @@ void WallPass::putColumns(SlabWalls& slab, const WallGroup& group, std::int32_t 
   const auto k = static_cast<std::size_t>(batch.count++);
   const GrainRow& row = context.rows[group.grain];
   const Wall& wall = (*walls_)[group.wall];
-  const Twist& twist = places_[group.wall].twist;
-  const Vec3 velocity = twist.at(point);
+  const WallPlace& place = places_[group.wall];
+  const Twist& twist = place.twist;
+  const Vec3 velocity = place.turns ? twist.at(point) : twist.velocity;
   batch.grain[k] = group.grain;
   batch.load[k] = loadOf_[group.wall];
   batch.wall[k] = group.wall;
@@ -397,7 +423,7 @@ void WallPass::putColumns(SlabWalls& slab, const WallGroup& group, std::int32_t 
     s.smallerRadius[k] = row.radius;
   }
   s.weight[k] = weight;
-  s.pairClass[k] = static_cast<std::int32_t>(context.material[group.grain] * context.materials + wall.material);
+  s.pairClass[k] = context.materials > 1 ? static_cast<std::int32_t>(context.material[group.grain] * context.materials + wall.material) : 0;
   const double* const memory = slab.memoryOf(candidateIndex);
   for (int component = 0; component < law_.stateSize; ++component) s.memory[component][k] = memory[component];
 }

@@ -49,7 +49,7 @@ struct SlabWalls {
   std::vector<WallWay> ways;            ///< of the groups
   std::vector<WallCandidate> candidates;
   std::vector<std::uint32_t> features;  ///< of the candidates, ascending within a group
-  std::vector<std::int32_t> awake;      ///< candidates, and their features
+  std::vector<std::int32_t> awake;      ///< candidates, and their features, marked as Surface::nearestPoints wants them
   std::vector<std::uint32_t> awakeFeatures;
   std::vector<double> memory;           ///< of the contacts, `stateSize` doubles for each candidate
   std::size_t stateSize = 0;
@@ -68,6 +68,7 @@ struct WallPlace {
   Twist twist;
   // Made from these before the slabs are evaluated.
   Mat3 rotation = Mat3::Identity();
+  bool turns = false;
   std::optional<Plane> plane;  ///< in the world, when the wall is an unbounded plane
 
   Vec3 toLocal(const Vec3& world) const { return rotation.transpose() * (world - pose.translation); }
@@ -116,6 +117,9 @@ class WallPass {
     double weight;
   };
   struct Old;
+  struct Few;
+  static std::vector<Few> fewByFew(const State& state, std::int32_t begin, std::int32_t end, double wallSkin);
+  bool mayMeet(std::size_t wall, const Few& few, double dt) const;
   void buildSlab(const State& state, std::int32_t begin, std::int32_t end, double wallSkin, double dt, const std::vector<Old>& old, SlabWalls& slab) const;
   void addGroup(const State& state, std::int32_t grain, std::size_t wall, const Vec3& start, const std::vector<std::uint32_t>& features,
                 const std::vector<Old>& old, SlabWalls& slab) const;

@@ -16,7 +16,11 @@ class Bvh {
   /// Calls visit(item) for every box nearer than `reach` to the point, in an order that depends on the boxes only.
   template <class Visit>
   void near(const Vec3& point, double reach, Visit&& visit) const {
-    walk([&](const Box& box) { return box.squaredExteriorDistance(point) <= reach * reach; }, visit);
+    // Without a branch: on which side of a box a point lies cannot be foreseen.
+    const auto squaredDistance = [&](const Box& box) {
+      return (box.min() - point).cwiseMax(point - box.max()).cwiseMax(0.0).squaredNorm();
+    };
+    walk([&](const Box& box) { return squaredDistance(box) <= reach * reach; }, visit);
   }
 
   /// Calls visit(item) for every box that the segment from a to b meets.

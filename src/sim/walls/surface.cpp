@@ -139,6 +139,13 @@ double Surface::refusal(std::uint32_t feature, const Vec3& centre, double radius
   return (1 - 1e-9) * reason;
 }
 
+double Surface::stayOver(std::uint32_t face, const Vec3& centre, double farthest) const {
+  const Face& of = features_.faces[face];
+  const Vec2 foot = of.project(centre);
+  if (of.unbounded || !of.outline.contains(foot)) return 0;
+  return (1 - 1e-9) * std::min(farthest, std::sqrt(of.outline.squaredDistance(foot, farthest)));
+}
+
 double Surface::clearance(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates) const {
   double least = std::numeric_limits<double>::infinity();
   for (const std::uint32_t feature : candidates) least = std::min(least, refusal(feature, centre, radius));
@@ -154,10 +161,11 @@ void Surface::nearestPoints(const Vec3& centre, double radius, std::span<const s
   contacts.clear();
   const std::uint32_t faces = faceCount(), facesAndEdges = faces + edgeCount();
   WallContact contact;
-  for (const std::uint32_t feature : candidates) {
+  for (const std::uint32_t marked : candidates) {
+    const std::uint32_t feature = marked & ~surelyOver;
     bool touching;
     if (feature < faces)
-      touching = closestOnFace(features_.faces[feature], centre, radius, contact);
+      touching = closestOnFace(features_.faces[feature], centre, radius, marked != feature, contact);
     else if (feature < facesAndEdges)
       touching = closestOnEdge(features_.edges[feature - faces], centre, radius, contact);
     else
@@ -168,14 +176,14 @@ void Surface::nearestPoints(const Vec3& centre, double radius, std::span<const s
   }
 }
 
-bool Surface::closestOnFace(const Face& face, const Vec3& centre, double radius, WallContact& contact) const {
+bool Surface::closestOnFace(const Face& face, const Vec3& centre, double radius, bool surely, WallContact& contact) const {
   const double height = face.plane.signedDistance(centre);
   if (height >= radius) return false;
   if (face.unbounded) {
     contact.normal = face.plane.normal;
     contact.distance = height;
   } else {
-    if (height <= -radius || !face.outline.contains(face.project(centre))) return false;
+    if (height <= -radius || !(surely || face.outline.contains(face.project(centre)))) return false;
     contact.normal = height >= 0 ? face.plane.normal : Vec3(-face.plane.normal);
     contact.distance = std::abs(height);
   }
