@@ -69,7 +69,7 @@ void HeatPass::conductWalls(const World& world, int slabNumber) {
     if (!wall.temperature) continue;
     const auto g = static_cast<std::size_t>(group.grain);
     const GrainRow& row = state.rows[g];
-    const std::span<const std::uint32_t> features(slab.features.data() + group.first, static_cast<std::size_t>(group.last - group.first));
+    const std::span<const std::uint32_t> features = slab.featuresOf(group);
     wall.surface->contacts(world.walls.places()[group.wall].pose.toLocal({row.x, row.y, row.z}), row.radius, features, contacts);
     for (const WallContact& contact : contacts) {
       if (!(contact.distance < row.radius)) continue;

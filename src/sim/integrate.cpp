@@ -29,8 +29,8 @@ Quat orientationNow(const State& state, std::size_t grain) {
 
 Motion integrate(State& state, std::int32_t first, std::int32_t last, const Vec3& gravity, double dt, bool turn) {
   const MoveContext context{state.rows.data(),     state.forces.data(), state.half.data(), state.previous.data(),
-                            state.turned.data(), v3(gravity),         dt};
-  const Motion motion = kernels().move(state.integrator, state.turns)(context, first, last);
+                            state.turned.data(), state.perSkin2.data(), v3(gravity), dt};
+  const Motion motion = kernels().grains->move(state.integrator, state.turns)(context, first, last);
   for (std::int32_t grain = first; turn && state.turns && grain < last; ++grain) {
     const auto k = static_cast<std::size_t>(grain);
     state.orientation[k] = orientationNow(state, k);

@@ -17,6 +17,7 @@
 //                            where magnets read it, over one.
 // The Runge–Kutta method has a file of its own (runge_kutta.h).
 
+#include "sim/kernel/grain_kernels.h"
 #include "sim/kernel/kernels.h"
 #include "sim/state.h"
 

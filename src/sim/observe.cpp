@@ -128,7 +128,7 @@ Simulation::Impl::DeepestContact Simulation::Impl::surveyContacts() const {
     for (const WallGroup& group : slab.groups) {
       const GrainRow& row = state.rows[static_cast<std::size_t>(group.grain)];
       const Wall& wall = model.walls[group.wall];
-      const std::span<const std::uint32_t> features(slab.features.data() + group.first, static_cast<std::size_t>(group.last - group.first));
+      const std::span<const std::uint32_t> features = slab.featuresOf(group);
       wall.surface->contacts(walls.places()[group.wall].pose.toLocal(positionOf(row)), row.radius, features, contacts);
       for (const WallContact& contact : contacts)
         meet((row.radius - contact.distance) / row.radius, static_cast<std::size_t>(group.grain),
@@ -193,7 +193,7 @@ void Simulation::Impl::visitContacts(Visit&& visit) const {
       const auto g = static_cast<std::size_t>(group.grain);
       const GrainRow& row = state.rows[g];
       const WallPlace& place = walls.places()[group.wall];
-      const std::span<const std::uint32_t> features(slab.features.data() + group.first, static_cast<std::size_t>(group.last - group.first));
+      const std::span<const std::uint32_t> features = slab.featuresOf(group);
       model.walls[group.wall].surface->contacts(place.pose.toLocal(positionOf(row)), row.radius, features, contacts);
       const std::optional<WallBody>& body = model.walls[group.wall].body;
       const double mass = 1 / (row.inverseMass + (body ? 1 / body->mass : 0));
@@ -203,7 +203,7 @@ void Simulation::Impl::visitContacts(Visit&& visit) const {
                                          Vec3(row.vx, row.vy, row.vz) - velocity, mass, row.radius),
                          constants.of(state.material[g] * n + model.walls[group.wall].material), contact.weight, {}};
         const auto candidate = std::lower_bound(features.begin(), features.end(), contact.feature) - features.begin();
-        remember(slab.candidates[static_cast<std::size_t>(group.first + candidate)].memory, 1, seen);
+        remember(slab.memoryOf(group.first + static_cast<std::int32_t>(candidate)), 1, seen);
         visit(seen);
       }
     }
@@ -318,7 +318,7 @@ std::uint64_t Simulation::Impl::contactHash() const {
         Hash hash;
         hash.add(std::uint64_t{state.id[static_cast<std::size_t>(group.grain)]});
         hash.add((std::uint64_t{group.wall} << 32) | candidate.feature);
-        for (std::size_t component = 0; component < c; ++component) hash.add(candidate.memory[component]);
+        for (std::size_t component = 0; component < c; ++component) hash.add(slab.memoryOf(w)[component]);
         sum += hash.value();
       }
     }

@@ -54,7 +54,7 @@ Plan Simulation::plan(const Model& model) {
   plan.passes.push_back(fmt::format("integrate: {}", scheme.name));
 
   plan.bytesPerGrain = sizeof(GrainRow) + sizeof(ForceRow) + (kept ? sizeof(HalfStepRow) : 0) + (previous ? sizeof(PlaceRow) : 0) + (grainsTurn(model) ? sizeof(Quat) + sizeof(AngleRow) : 0) +
-                       (model.heat ? 2 * sizeof(double) : 0) + sizeof(std::uint16_t) + sizeof(std::uint32_t) + (model.counters.empty() ? 0 : sizeof(std::uint32_t)) + sizeof(Vec3);
+                       (model.heat ? 2 * sizeof(double) : 0) + sizeof(std::uint16_t) + sizeof(std::uint32_t) + (model.counters.empty() ? 0 : sizeof(std::uint32_t)) + sizeof(Vec3) + 2 * sizeof(double);
   plan.bytesPerContact = static_cast<std::size_t>(traits.stateSize) * sizeof(double);
   plan.bytesPerListedPair = 5 * sizeof(std::int32_t);
   return plan;

@@ -97,13 +97,19 @@ void Simulation::Impl::countCrossings() {
   for (std::size_t g = 0; g < state.size() && !model.counters.empty(); ++g) countCrossing(g);
 }
 
+template <class Visit>
+void Simulation::Impl::visitThoseThatMoved(Visit&& visit) {
+  if (rebuildNeeded)
+    for (std::size_t g = 0; g < state.size(); ++g) visit(g);
+  else
+    for (const int slab : due)
+      for (std::int32_t g = slabs.begin(slab); g < slabs.end(slab); ++g) visit(static_cast<std::size_t>(g));
+}
+
 void Simulation::Impl::changePopulation() {
   bool anyTunnelled = false;
   for (const SlabWalls& slab : walls.slabs()) anyTunnelled = anyTunnelled || !slab.tunnelled.empty();
-  if (anyTunnelled || listsAreDue()) {
-    countCrossings();
-    leave();
-  }
+  if (anyTunnelled || rebuildNeeded || !due.empty()) leave();
   if (!model.streams.empty() && steps % stepsBetweenArrivals == 0) arrive();
 }
 
@@ -118,11 +124,14 @@ void Simulation::Impl::lose(std::size_t grain, const std::string& why, std::vect
 
 void Simulation::Impl::leave() {
   std::vector<char> goes(state.size(), 0);
+  bool any = false;
   for (SlabWalls& slab : walls.slabs()) {
     for (const std::int32_t g : slab.tunnelled) lose(static_cast<std::size_t>(g), "went through a wall", goes);
+    any = any || !slab.tunnelled.empty();
     slab.tunnelled.clear();
   }
-  for (std::size_t g = 0; g < state.size(); ++g) {
+  visitThoseThatMoved([&](std::size_t g) {
+    if (!model.counters.empty()) countCrossing(g);
     const Vec3 x = periods.wrapped(positionOf(state.rows[g]));
     if (!model.domain.contains(x)) lose(g, "left the domain", goes);
     for (const Sink& sink : model.sinks) {
@@ -130,8 +139,9 @@ void Simulation::Impl::leave() {
       goes[g] = 1;
       ++counts.removed;
     }
-  }
-  if (std::find(goes.begin(), goes.end(), 1) != goes.end()) removeGrains(goes);
+    any = any || goes[g];
+  });
+  if (any) removeGrains(goes);
 }
 
 void Simulation::Impl::removeGrains(const std::vector<char>& goes) {
@@ -174,13 +184,14 @@ void Simulation::Impl::bookArrivals() {
 /// `near` is room to work in.
 bool Simulation::Impl::touchesGrain(const Vec3& centre, double radius, std::vector<std::int32_t>& near) const {
   near.clear();
-  // The grid knows the cells as they were at the last rebuild; the skin covers what grains have moved since.
+  // The grid knows places as they were at the last rebuild; skins cover what grains have moved since, up to the last step.
+  const double around = radius + fastest * model.timeStep;
   if (rebuildNeeded) {
     for (std::size_t g = 0; g < state.size(); ++g) near.push_back(static_cast<std::int32_t>(g));
   } else {
     const Vec3 inside = periods.wrapped(centre);
-    grid.near(inside, radius, -1, near);
-    periods.forImages(inside, grid.farthest(radius), [&](int shift) { grid.near(inside + periods.shift(shift), radius, -1, near); });
+    grid.near(inside, around, -1, near);
+    periods.forImages(inside, grid.farthest(around), [&](int shift) { grid.near(inside + periods.shift(shift), around, -1, near); });
   }
   return std::any_of(near.begin(), near.end(), [&](std::int32_t g) {
     const GrainRow& row = state.rows[static_cast<std::size_t>(g)];

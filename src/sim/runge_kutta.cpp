@@ -36,7 +36,7 @@ void RungeKutta::noteBeginnings(std::size_t slabNumber) {
     for (std::int32_t c = group.first; c < group.last; ++c) {
       const auto k = static_cast<std::size_t>(c);
       const WallCandidate& candidate = slab.candidates[k];
-      const double* const source = any && candidate.touching && !touched(c) ? candidate.memory : before.candidates[k].memory;
+      const double* const source = (any && candidate.touching && !touched(c) ? slab : before).memoryOf(c);
       for (std::size_t m = 0; m < size; ++m) start[k * size + m] = candidate.touching ? source[m] : 0.0;
     }
   }
@@ -141,11 +141,11 @@ void RungeKutta::collectWalls(int stage, const State& state, const WallPass& wal
       Frame frame = frameOf(state.rows[static_cast<std::size_t>(group.grain)], slab.candidates[k], walls.places()[group.wall]);
       const double b = weight[static_cast<std::size_t>(stage)];
       const double* const in =
-          stage == 0 ? wallsBefore_[slabNumber].candidates[k].memory : memory.in.data() + k * static_cast<std::size_t>(stateSize_);
+          stage == 0 ? wallsBefore_[slabNumber].memoryOf(c) : memory.in.data() + k * static_cast<std::size_t>(stateSize_);
       countWall(stage == 0 ? 1 - b : -b, state, group, slab.candidates[k], in, memory.uncounted);
-      countWall(b, state, group, slab.candidates[k], slab.candidates[k].memory, memory.uncounted);
+      countWall(b, state, group, slab.candidates[k], slab.memoryOf(c), memory.uncounted);
       frame.touching = frame.touching && start.candidates[k].touching;  // one that begins within the step waits for the next
-      collectMemory(stage, memory, k * static_cast<std::size_t>(stateSize_), 1, slab.candidates[k].memory, 1, frame, dt);
+      collectMemory(stage, memory, k * static_cast<std::size_t>(stateSize_), 1, slab.memoryOf(c), 1, frame, dt);
     }
   }
 }
@@ -222,9 +222,7 @@ void RungeKutta::moveTo(int stage, State& state, const Slabs& slabs, PairLists& 
     for (MemoryStages* memory : {&pairs_[s], &walls_[s]})
       for (std::size_t k = 0; k < memory->in.size(); ++k) memory->in[k] = memory->start[k] + c * memory->rate[k];
     pairs.slabs()[s].memory = pairs_[s].in;
-    const double* in = walls_[s].in.data();
-    for (WallCandidate& candidate : walls.slabs()[s].candidates)
-      for (int m = 0; m < stateSize_; ++m) candidate.memory[m] = *in++;
+    walls.slabs()[s].memory = walls_[s].in;
   });
 }
 
@@ -235,7 +233,7 @@ Motion RungeKutta::finish(State& state, PairLists& pairs, WallPass& walls, doubl
     GrainRow& row = state.rows[k];
     setRow(row, grain.start.x + dt * grain.sum.x, grain.start.v + dt * grain.sum.v, grain.start.s + dt * grain.sum.s);
     if (state.turns) state.orientation[k] = Quat(grain.start.q.coeffs() + dt * grain.sum.q.coeffs()).normalized();
-    motion.add(norm2(grain.sum.x), dt * row.inverseRadius);
+    motion.add(norm2(grain.sum.x), dt * row.inverseRadius, state.perSkin2[k]);
   }
   walls.slabs() = wallsAtStart_;
   for (std::size_t s = 0; s < pairs_.size(); ++s) {
@@ -248,9 +246,8 @@ Motion RungeKutta::finish(State& state, PairLists& pairs, WallPass& walls, doubl
     std::size_t k = 0;
     for (const WallGroup& group : slab.groups) {
       for (std::int32_t c = group.first; c < group.last; ++c) {
-        WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(c)];
-        for (int m = 0; m < stateSize_; ++m) candidate.memory[m] = advance(walls_[s], k++);
-        countWall(-1, state, group, candidate, candidate.memory, walls_[s].uncounted);
+        for (int m = 0; m < stateSize_; ++m) slab.memoryOf(c)[m] = advance(walls_[s], k++);
+        countWall(-1, state, group, slab.candidates[static_cast<std::size_t>(c)], slab.memoryOf(c), walls_[s].uncounted);
       }
     }
     slab.work += wallWork_[s] - slab.lastWork;

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "sim/fields/magnet_pass.h"
 #include "sim/laws/catalogue.h"
+#include "sim/neighbours/skins.h"
 #include "sim/pair_constants.h"
 #include "sim/simulation_impl.h"
 #include "sim/time_step.h"
@@ -26,10 +27,10 @@ constexpr std::size_t fitsCache = 60'000;
 // Few, so that what a block works on stays with its thread; enough that no thread waits long for another.
 constexpr int blocksPerThread = 4;
 
-// Neighbour lists: skins in terms of how far the fastest grain moves in a step, bounded in terms of the smallest radius.
-// Some grains may fall while the others hardly move: the bounds keep them from filling everybody's lists.
-constexpr double outerSteps = 120, innerSteps = 3;
-constexpr double leastOuter = 0.2, mostOuter = 1.2, leastInner = 0.02, mostInner = 0.06;
+// Neighbour lists: the steps that a skin is to last, and its bounds in terms of the smallest radius. Magnets reach farther by it, and lists of
+// them are longer. Then the share of it that belongs to the inner lists, and the bounds of that in terms of the radius.
+constexpr double skinSteps = 250, leastSkin = 0.1, mostSkin = 1.3, mostSkinOfMagnets = 0.6;
+constexpr double usualInnerShare = 0.1, mostInnerShare = 0.5, leastInner = 0.01, mostInner = 0.15;
 
 }  // namespace
 
@@ -137,7 +138,7 @@ StepOf Simulation::Impl::stepOf() const {
 }
 
 World Simulation::Impl::world(double t, double share) {
-  return {model, state, slabs, pairs, periods, walls, team, gravity.now(), outerSkin, t, stepOf(), model.timeStep, share,
+  return {model, state, slabs, pairs, periods, walls, team, gravity.now(), 2 * largestSkin, t, stepOf(), model.timeStep, share,
           [this](std::int32_t i, std::int32_t j) { return contactEnergyOf(static_cast<std::size_t>(i), static_cast<std::size_t>(j)); }};
 }
 
@@ -150,10 +151,12 @@ void Simulation::Impl::computeForces(For whom) {
   if (forcesKnown) return;
   if (nextTimeStep > 0) beginChange();
   changeGravity();
-  const double wallStep = walls.moveTo(time(), model.timeStep);
+  wallStep = walls.moveTo(time(), model.timeStep);
   placeMovingWalls();
   {
-    Profile::Lap lap(profile, ProfilePart::population);
+    Profile::Lap lap(profile, ProfilePart::lists);
+    findDueLists();
+    lap.next(ProfilePart::population);
     changePopulation();
     lap.next(ProfilePart::lists);
     refreshLists();
@@ -291,6 +294,7 @@ Motion Simulation::Impl::moveBySlabs() {
   moved = false;
   Motion most;
   for (const Motion& motion : motions) {
+    most.haste2 = std::max(most.haste2, motion.haste2);
     most.fastest2 = std::max(most.fastest2, motion.fastest2);
     most.travel2 = std::max(most.travel2, motion.travel2);
   }
@@ -324,62 +328,79 @@ Motion Simulation::Impl::moveByStages() {
 
 void Simulation::Impl::move() {
   const Motion most = rungeKutta ? moveByStages() : moveBySlabs();
+  if (rungeKutta) std::fill(motions.begin(), motions.end(), most);
   for (std::size_t g = 0; g < state.temperature.size(); ++g) state.temperature[g] += state.warming[g];
-  double wallStep = 0;
-  for (MovingWall& wall : moving) wallStep = std::max(wallStep, wall.move(kickStep(), changing ? nextTimeStep : model.timeStep, scheme));
-  wallTravel += wallStep;
+  bodyStep = 0;
+  for (MovingWall& wall : moving) bodyStep = std::max(bodyStep, wall.move(kickStep(), changing ? nextTimeStep : model.timeStep, scheme));
+  wallTravel += bodyStep;
   fastest = std::sqrt(most.fastest2);
   if (changing) finishChange();
   const bool far = !(most.travel2 <= model.watch.travelLimit * model.watch.travelLimit);
   if (model.continuous && !(fastest * model.timeStep <= hardShare() * smallestRadius)) fastest = std::max(fastest, sweep(model.timeStep));
-  innerTravel += fastest * model.timeStep;
-  outerTravel += fastest * model.timeStep;
+  for (int slab = 0; slab < slabs.count(); ++slab) drift.add(slab, std::sqrt(motions[static_cast<std::size_t>(slab)].haste2) * model.timeStep);
   ++steps;
   grainSteps += state.size();
   forcesKnown = false;
   if (far && !model.continuous) watchTravel();
 }
 
+// Lists that hold for a step must hold at all its stages.
+void Simulation::Impl::findDueLists() {
+  const int ahead = rungeKutta ? 1 : 0;
+  if (wallTravel + ahead * std::max(wallStep, bodyStep) > wallSkin) rebuildNeeded = true;
+  due.clear();
+  if (rebuildNeeded) return;
+  for (int list = 0; list < drift.lists(); ++list)
+    if (pairs.slabs()[static_cast<std::size_t>(list)].stale || drift.beyond(list, innerShare, ahead)) due.push_back(list);
+}
+
 // An outer list holds as long as no pair that the inner list must have can be missing from it.
 bool Simulation::Impl::outerListsHold() {
-  if (2 * outerTravel + innerSkin <= outerSkin) return true;
+  std::vector<char> holds(static_cast<std::size_t>(slabs.count()), 1);
+  team.run(slabs.count(), [&](int slab, int) { holds[static_cast<std::size_t>(slab)] = slabHolds(slab); });
+  return std::find(holds.begin(), holds.end(), 0) == holds.end();
+}
+
+bool Simulation::Impl::slabHolds(int slab) {
+  double& way = drift.sinceSearch(slab);
+  if (way + innerShare <= 1) return true;
   // The sum of the largest steps says too much: look how far grains really are from where they were.
-  std::vector<double> most2(static_cast<std::size_t>(slabs.count()), 0.0);
-  team.run(slabs.count(), [&](int slab, int) {
-    double& most = most2[static_cast<std::size_t>(slab)];
-    for (auto g = static_cast<std::size_t>(slabs.begin(slab)); g < static_cast<std::size_t>(slabs.end(slab)); ++g) {
-      const GrainRow& row = state.rows[g];
-      most = std::max(most, (Vec3(row.x, row.y, row.z) - state.reference[g]).squaredNorm());
-    }
-  });
-  outerTravel = std::sqrt(*std::max_element(most2.begin(), most2.end()));
-  return 2 * outerTravel + innerSkin <= 0.9 * outerSkin;
+  double most2 = 0;
+  for (auto g = static_cast<std::size_t>(slabs.begin(slab)); g < static_cast<std::size_t>(slabs.end(slab)); ++g) {
+    const GrainRow& row = state.rows[g];
+    most2 = std::max(most2, (Vec3(row.x, row.y, row.z) - state.reference[g]).squaredNorm() * state.perSkin2[g]);
+  }
+  way = std::sqrt(most2);
+  return way + innerShare <= 0.9;
 }
 
 void Simulation::Impl::refreshLists() {
-  if (!listsAreDue()) return;
-  if (rebuildNeeded || 2 * wallTravel > outerSkin || !outerListsHold()) {
+  if (rebuildNeeded || (!due.empty() && !outerListsHold())) {
     rebuildLists();
-  } else {
-    pairs.refilter(state, innerSkin, team);
+    return;
   }
-  innerTravel = 0;
+  pairs.refilter(state, innerShare, due, team);
+  for (const int list : due) drift.filtered(list);
 }
 
-void Simulation::Impl::chooseSkins() {
+void Simulation::Impl::giveSkins() {
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
   for (std::size_t g = 0; g < state.size(); ++g) {
     smallest = std::min(smallest, state.rows[g].radius);
     largest = std::max(largest, state.rows[g].radius);
   }
   if (state.size() == 0) smallest = largest = 1;
-  const double stride = 2 * fastest * model.timeStep;
-  outerSkin = model.skin > 0 ? model.skin : std::clamp(outerSteps * stride, leastOuter * smallest, mostOuter * smallest);
+  SkinRule rule{skinSteps * model.timeStep, leastSkin * smallest, (model.magnets ? mostSkinOfMagnets : mostSkin) * smallest};
+  if (model.skin > 0) rule.least = rule.most = 0.5 * model.skin;
+  const bool moves = !moving.empty() || std::any_of(model.walls.begin(), model.walls.end(), [](const Wall& wall) { return !wall.motion.still(); });
+  wallSkin = moves ? std::clamp(skinSteps * std::max(wallStep, bodyStep), rule.least, rule.most) : 0;
   // In a periodic domain no pair may be listed twice: half a period is as far as lists may reach.
   for (int axis = 0; axis < 3; ++axis)
-    if (periods.along(axis)) outerSkin = std::min(outerSkin, 0.5 * periods.length(axis) - 2 * largest);
-  innerSkin = std::min(std::clamp(innerSteps * stride, leastInner * smallest, mostInner * smallest), 0.5 * outerSkin);
-  reach = 2 * largest + outerSkin;
+    if (periods.along(axis)) rule.most = std::min(rule.most, 0.25 * periods.length(axis) - largest);
+  rule.least = std::min(rule.least, rule.most);
+  state.skin = chooseSkins(state.rows, rule);
+  largestSkin = state.skin.empty() ? 0 : *std::max_element(state.skin.begin(), state.skin.end());
+  innerShare = std::min({std::max(usualInnerShare, leastInner * smallest / rule.least), mostInnerShare, mostInner * smallest / largestSkin});
 }
 
 // Grains that have left a periodic domain go on at its other end. Under gravity that is work (E5): they may fall for ever.
@@ -412,9 +433,11 @@ void Simulation::Impl::rebuildLists() {
     state.setImages(0);
     wrapGrains();
   }
-  chooseSkins();
+  giveSkins();
   pairs.rememberContacts();
   std::vector<std::int32_t> order;
+  double reach = 0;
+  for (std::size_t g = 0; g < state.size(); ++g) reach = std::max(reach, 2 * (state.rows[g].radius + state.skin[g]));
   slabs = sortIntoSlabs(state.rows, reach, order);
   std::vector<std::int32_t> newPlace(order.size());
   for (std::size_t g = 0; g < order.size(); ++g) newPlace[static_cast<std::size_t>(order[g])] = static_cast<std::int32_t>(g);
@@ -425,16 +448,21 @@ void Simulation::Impl::rebuildLists() {
     newPlace.swap(placeAfterRemoval);
     placeAfterRemoval.clear();
   }
-  grid.build(state.rows, outerSkin);
-  pairs.build(state, slabs, grid, innerSkin, newPlace, team, periods);
+  grid.build(state.rows, 0, state.skin);
+  pairs.build(state, slabs, grid, innerShare, newPlace, team, periods);
+  drift.restart(pairs.slabsInLists(slabs));
   state.clearForces();
   // What has been swept has not come by the straight way, and not through a wall.
-  walls.build(state, slabs, outerSkin, steps > 0 && !model.continuous ? model.timeStep : 0.0, newPlace, team);
+  walls.build(state, slabs, wallSkin, steps > 0 && !model.continuous ? model.timeStep : 0.0, newPlace, team);
   state.reference.resize(state.size());
-  for (std::size_t g = 0; g < state.size(); ++g) state.reference[g] = {state.rows[g].x, state.rows[g].y, state.rows[g].z};
+  state.perSkin2.resize(state.size());
+  for (std::size_t g = 0; g < state.size(); ++g) {
+    state.reference[g] = {state.rows[g].x, state.rows[g].y, state.rows[g].z};
+    state.perSkin2[g] = 1 / (state.skin[g] * state.skin[g]);
+  }
   state.wrap.clear();
   for (const auto& pass : passes) pass->regroup(world(time(), model.timeStep), newPlace);
-  outerTravel = wallTravel = 0;
+  wallTravel = 0;
   rebuildNeeded = false;
 }
 

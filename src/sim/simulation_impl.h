@@ -12,6 +12,7 @@
 #include "sim/kernel/kernels.h"
 #include "sim/network.h"
 #include "sim/neighbours/cell_grid.h"
+#include "sim/neighbours/drift.h"
 #include "sim/neighbours/pair_lists.h"
 #include "sim/neighbours/slabs.h"
 #include "sim/pair_constants.h"
@@ -79,12 +80,14 @@ class Simulation::Impl {
   std::vector<std::vector<ActingContact>> acting;  ///< one per slab: the contacts of the present instant, noted for an observer
   std::array<double, Accounts::kinds> total{};  ///< dissipated so far
 
-  double outerSkin = 0, innerSkin = 0;
-  double reach = 0;                         ///< m: farthest distance of the centres of a listed pair
+  double largestSkin = 0;                   ///< m
+  double innerShare = 0;                    ///< of the skins, what belongs to the inner lists
   double fastest = 0;                       ///< m/s: in the last step
-  double outerTravel = 0, innerTravel = 0;  ///< m: how far any grain may have moved since the lists were made
-  double wallTravel = 0;                    ///< m: the same for walls
+  Drift drift;                              ///< how far grains have gone since the lists were made
+  double wallSkin = 0, wallTravel = 0;      ///< m: how far walls may go before the lists must be made anew, and have gone
+  double wallStep = 0, bodyStep = 0;        ///< m: how far any may go in the present step; those under load went in the last
   bool rebuildNeeded = true;
+  std::vector<int> due;                     ///< the inner lists that do not hold at the present instant, unless all are new
 
   std::uint64_t steps = 0;
   double since = 0;                         ///< s: steps have had this length from here on
@@ -133,14 +136,13 @@ class Simulation::Impl {
   void beginChange();
   void finishChange();
 
-  /// Lists that hold for a step must hold at all its stages.
-  double stageTravel() const { return rungeKutta ? fastest * model.timeStep : 0; }
-  bool listsAreDue() const { return rebuildNeeded || pairs.stale() || 2 * wallTravel > outerSkin || 2 * (innerTravel + stageTravel()) > innerSkin; }
-  void chooseSkins();
+  void findDueLists();
+  void giveSkins();
   void refreshLists();
   void wrapGrains();
   void rebuildLists();
   bool outerListsHold();
+  bool slabHolds(int slab);
   PassContext context(PairClass pairClass, bool oneClass);
   /// What passes see at time t (s); `share` as in World.
   World world(double t, double share);
@@ -170,6 +172,9 @@ class Simulation::Impl {
   void arrive();
   void bookArrivals();
   void leave();
+  /// Calls visit(grain) for grains of lists that are due, or for all when all lists are.
+  template <class Visit>
+  void visitThoseThatMoved(Visit&& visit);
   void lose(std::size_t grain, const std::string& why, std::vector<char>& goes);
   void removeGrains(const std::vector<char>& goes);
   std::uint32_t sidesOf(const Vec3& position) const;

@@ -46,6 +46,7 @@ void State::setImages(std::size_t count) {
   rows.resize(grains + count);
   forces.resize(grains + count);
   material.resize(grains + count);
+  skin.resize(grains + count);
 }
 
 namespace {
@@ -74,6 +75,7 @@ void State::reorder(const std::vector<std::int32_t>& order) {
   reorderOne(id, order);
   reorderOne(sides, order);
   reorderOne(wrap, order);
+  reorderOne(skin, order);
 }
 
 void State::clearForces() { forces.assign(rows.size(), ForceRow{}); }

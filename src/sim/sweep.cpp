@@ -126,7 +126,7 @@ class Simulation::Impl::Sweep {
     const double t = mover.since, r = row(mover.grain).radius, half = 0.5 * (dt_ - t) * mover.u.norm();
     const Vec3 middle = mover.x + 0.5 * (dt_ - t) * mover.u;
     near_.clear();
-    const double around = r + half + sim_.outerSkin + sim_.model.watch.travelLimit * largest_;
+    const double around = r + half + sim_.largestSkin + sim_.model.watch.travelLimit * largest_;
     const Vec3 inside = sim_.periods.wrapped(middle);
     sim_.grid.near(inside, around, mover.grain, near_);
     sim_.periods.forImages(inside, sim_.grid.farthest(around), [&](int shift) { sim_.grid.near(inside + sim_.periods.shift(shift), around, mover.grain, near_); });
@@ -278,7 +278,9 @@ class Simulation::Impl::Sweep {
     if (mover.impacts == 0) return;
     const auto g = static_cast<std::size_t>(mover.grain);
     GrainRow& to = state_.rows[g];
-    const Vec3 x = mover.x + (dt_ - mover.since) * mover.u, du = mover.u - wayVelocity(mover.grain), ds = mover.s - waySpin(mover.grain);
+    const Vec3 x = mover.x + (dt_ - mover.since) * mover.u, straight(to.x, to.y, to.z), du = mover.u - wayVelocity(mover.grain), ds = mover.s - waySpin(mover.grain);
+    double& haste2 = sim_.motions[static_cast<std::size_t>(sim_.slabs.of(mover.grain))].haste2;
+    haste2 = std::max(haste2, (x - straight + dt_ * wayVelocity(mover.grain)).squaredNorm() / (dt_ * dt_) * state_.perSkin2[g]);
     to.x = x.x(), to.y = x.y(), to.z = x.z();
     to.vx += du.x(), to.vy += du.y(), to.vz += du.z();
     to.sx += ds.x(), to.sy += ds.y(), to.sz += ds.z();

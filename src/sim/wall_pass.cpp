@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 namespace tsubu::sim {
@@ -17,6 +18,9 @@ double inverseMassOf(const Wall& wall) { return wall.body ? 1 / wall.body->mass 
 
 // A contact lies at least this share of the radius away from the centre, so that its direction survives the arithmetic.
 constexpr double leastDistance = 1e-9;
+
+// Which features a grain may touch is found out for so many steps, within bounds in terms of its radius.
+constexpr double roomSteps = 20, leastRoom = 0.01, mostRoom = 0.2;
 
 }  // namespace
 
@@ -65,71 +69,131 @@ bool WallPass::touches(const Vec3& centre, double radius) const {
   return false;
 }
 
-void WallPass::build(const State& state, const Slabs& slabs, double skin, double dt, const std::vector<std::int32_t>& newPlace, ThreadTeam& team) {
+/// A contact in force before the lists were made anew.
+struct WallPass::Old {
+  std::int32_t grain;  // in the new order
+  std::uint16_t wall;
+  Vec3 centre;
+  WallCandidate candidate;
+  double memory[mostMemory];
+
+  bool operator<(const Old& other) const { return wall != other.wall ? wall < other.wall : grain < other.grain; }
+};
+
+void WallPass::build(const State& state, const Slabs& slabs, double wallSkin, double dt, const std::vector<std::int32_t>& newPlace, ThreadTeam& team) {
   settle();
-  // Contacts in force, by grain in the new order.
-  struct Old {
-    std::int32_t grain;
-    std::uint16_t wall;
-    Vec3 centre;
-    WallCandidate candidate;
-  };
   std::vector<Old> old;
   double work = 0;
   for (const SlabWalls& slab : slabs_) {
     work += slab.work;
-    for (const WallGroup& group : slab.groups) {
+    for (std::size_t n = 0; n < slab.groups.size(); ++n) {
+      const WallGroup& group = slab.groups[n];
       const std::int32_t grain = newPlace[static_cast<std::size_t>(group.grain)];
       if (grain < 0) continue;
       for (std::int32_t c = group.first; c < group.last; ++c) {
         const WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(c)];
-        if (candidate.touching) old.push_back({grain, group.wall, group.centre, candidate});
+        if (!candidate.touching) continue;
+        old.push_back({grain, group.wall, slab.ways[n].centre, candidate, {}});
+        std::copy_n(slab.memoryOf(c), slab.stateSize, old.back().memory);
       }
     }
   }
-  const auto before = [](const Old& a, const Old& b) { return a.grain != b.grain ? a.grain < b.grain : a.wall < b.wall; };
-  std::stable_sort(old.begin(), old.end(), before);
+  std::stable_sort(old.begin(), old.end());
 
   slabs_.assign(static_cast<std::size_t>(slabs.count()), SlabWalls{});
+  near_.resize(slabs_.size());
   if (!slabs_.empty()) slabs_[0].work = work;
   team.run(slabs.count(), [&](int s, int) {
-    SlabWalls& slab = slabs_[static_cast<std::size_t>(s)];
-    std::vector<std::uint32_t> features;
-    for (std::int32_t g = slabs.begin(s); g < slabs.end(s); ++g) {
+    buildSlab(state, slabs.begin(s), slabs.end(s), wallSkin, dt, old, slabs_[static_cast<std::size_t>(s)]);
+  });
+}
+
+/// A few grains that lie beside each other, since grains lie in the order of cells.
+struct WallPass::Few {
+  std::int32_t begin, end;
+  Box box;                           // of their centres, world
+  double reach = 0, fastest2 = 0;  // the largest of theirs: m from the centre, m²/s²
+};
+
+std::vector<WallPass::Few> WallPass::fewByFew(const State& state, std::int32_t begin, std::int32_t end, double wallSkin) {
+  constexpr std::int32_t size = 8;
+  std::vector<Few> all;
+  for (std::int32_t from = begin; from < end; from += size) {
+    Few few{from, std::min(end, from + size), {}};
+    for (std::int32_t g = few.begin; g < few.end; ++g) {
       const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
-      const Vec3 centre = centreOf(row), velocity(row.vx, row.vy, row.vz);
-      for (std::size_t w = 0; w < walls_->size(); ++w) {
-        const Pose& pose = places_[w].pose;
-        const Vec3 travel = dt * (velocity - places_[w].twist.at(centre));
-        if (const auto& plane = places_[w].plane) {
-          const double away = plane->signedDistance(centre) - row.radius - skin;
-          if (away > 0 && away * away > travel.squaredNorm()) continue;
-        }
-        const Vec3 local = pose.toLocal(centre);
-        (*walls_)[w].surface->candidates(local, row.radius + skin + travel.norm(), features);
-        if (features.empty()) continue;
-        WallGroup group;
-        group.grain = g;
-        group.wall = static_cast<std::uint16_t>(w);
-        group.centre = local - pose.rotation.conjugate() * travel;
-        group.first = static_cast<std::int32_t>(slab.candidates.size());
-        for (const std::uint32_t feature : features) {
-          slab.features.push_back(feature);
-          slab.candidates.push_back({feature, false, Vec3::Zero(), {}});
-        }
-        group.last = static_cast<std::int32_t>(slab.candidates.size());
-        const Old key{g, group.wall, {}, {}};
-        for (auto [o, end] = std::equal_range(old.begin(), old.end(), key, before); o != end; ++o) {
-          group.centre = o->centre;
-          if (!state.wrap.empty()) group.centre += pose.rotation.conjugate() * state.wrap[static_cast<std::size_t>(g)];
-          const auto place = std::lower_bound(features.begin(), features.end(), o->candidate.feature);
-          if (place != features.end() && *place == o->candidate.feature)
-            slab.candidates[static_cast<std::size_t>(group.first + (place - features.begin()))] = o->candidate;
-        }
-        slab.groups.push_back(group);
+      few.box.extend(centreOf(row));
+      few.reach = std::max(few.reach, row.radius + state.skin[static_cast<std::size_t>(g)] + wallSkin);
+      few.fastest2 = std::max(few.fastest2, norm2(row.velocity()));
+    }
+    all.push_back(few);
+  }
+  return all;
+}
+
+// Where none of a few grains can be near the wall, each of them need not be looked at.
+bool WallPass::mayMeet(std::size_t wall, const Few& few, double dt) const {
+  const WallPlace& place = places_[wall];
+  const Vec3 middle = few.box.center(), half = 0.5 * few.box.sizes();
+  const double wallSpeed = place.twist.at(middle).norm() + place.twist.angularVelocity.norm() * half.norm();
+  const double reach = few.reach + dt * (std::sqrt(few.fastest2) + wallSpeed);
+  const Vec3 around = place.rotation.transpose().cwiseAbs() * half + Vec3::Constant(reach), local = place.toLocal(middle);
+  return (*walls_)[wall].surface->mayMeet(Box(local - around, local + around));
+}
+
+void WallPass::buildSlab(const State& state, std::int32_t begin, std::int32_t end, double wallSkin, double dt, const std::vector<Old>& old,
+                         SlabWalls& slab) const {
+  slab.stateSize = static_cast<std::size_t>(law_.stateSize);
+  std::vector<std::uint32_t> features;
+  const std::vector<Few> all = fewByFew(state, begin, end, wallSkin);
+  for (std::size_t w = 0; w < walls_->size(); ++w) {
+    const WallPlace& place = places_[w];
+    slab.firstGroup.push_back(static_cast<std::int32_t>(slab.groups.size()));
+    for (const Few& few : all) {
+      if (!mayMeet(w, few, dt)) continue;
+      for (std::int32_t g = few.begin; g < few.end; ++g) {
+        const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
+        const Vec3 centre = centreOf(row), local = place.toLocal(centre), travel = dt * (Vec3(row.vx, row.vy, row.vz) - place.twist.at(centre));
+        const double reach = row.radius + state.skin[static_cast<std::size_t>(g)] + wallSkin + travel.norm();
+        (*walls_)[w].surface->candidates(local, reach, features);
+        if (!features.empty()) addGroup(state, g, w, local - place.rotation.transpose() * travel, features, old, slab);
       }
     }
-  });
+  }
+  slab.firstGroup.push_back(static_cast<std::int32_t>(slab.groups.size()));
+  slab.awake.resize(slab.candidates.size());
+  slab.awakeFeatures.resize(slab.candidates.size());
+}
+
+// `start`: where the grain was a step ago, if it was nowhere near the wall.
+void WallPass::addGroup(const State& state, std::int32_t grain, std::size_t wall, const Vec3& start, const std::vector<std::uint32_t>& features,
+                        const std::vector<Old>& old, SlabWalls& slab) const {
+  WallGroup group;
+  group.grain = grain;
+  group.wall = static_cast<std::uint16_t>(wall);
+  group.first = static_cast<std::int32_t>(slab.candidates.size());
+  WallWay way{start, start, 0};
+  for (const std::uint32_t feature : features) {
+    slab.features.push_back(feature);
+    slab.candidates.push_back({feature, false, Vec3::Zero(), 1});
+  }
+  slab.memory.resize(slab.candidates.size() * slab.stateSize);
+  group.last = static_cast<std::int32_t>(slab.candidates.size());
+  Old key{};
+  key.grain = grain;
+  key.wall = group.wall;
+  for (auto [o, end] = std::equal_range(old.begin(), old.end(), key); o != end; ++o) {
+    way.centre = o->centre;
+    if (!state.wrap.empty()) way.centre += places_[wall].rotation.transpose() * state.wrap[static_cast<std::size_t>(grain)];
+    const auto at = std::lower_bound(features.begin(), features.end(), o->candidate.feature);
+    if (at == features.end() || *at != o->candidate.feature) continue;
+    const std::int32_t candidate = group.first + static_cast<std::int32_t>(at - features.begin());
+    slab.candidates[static_cast<std::size_t>(candidate)] = o->candidate;
+    std::copy_n(o->memory, slab.stateSize, slab.memoryOf(candidate));
+    group.awake = 1;
+  }
+  slab.groups.push_back(group);
+  slab.ways.push_back(way);
 }
 
 /// Contacts on the bench, and where each came from. The arrays are filled as far as `count` says.
@@ -154,6 +218,7 @@ void WallPass::settle() {
   for (std::size_t w = 0; w < places_.size(); ++w) {
     WallPlace& place = places_[w];
     place.rotation = place.pose.rotation.toRotationMatrix();
+    place.turns = place.twist.angularVelocity != Vec3::Zero();
     place.plane = (*walls_)[w].surface->asPlane();
     if (!place.plane) continue;
     place.plane->normal = place.rotation * place.plane->normal;
@@ -169,79 +234,135 @@ void WallPass::evaluateSlab(int slabNumber, const PassContext& context, WallKern
   slab.tunnelled.clear();
   if (slab.groups.empty()) return;
   Batch batch(kernel, account, stage, accounts, acting);
-  for (WallGroup& group : slab.groups) {
-    if (places_[group.wall].plane)
-      evaluatePlane(slab, group, context, batch);
+  std::vector<std::int32_t>& near = near_[static_cast<std::size_t>(slabNumber)];
+  for (std::size_t w = 0; w < walls_->size(); ++w) {
+    const bool plane = places_[w].plane.has_value();
+    if (plane)
+      findNearPlane(slab, w, context, near);
     else
-      evaluateGroup(slab, group, context, batch);
+      findNearMesh(slab, w, context, near);
+    for (const std::int32_t n : near) {
+      const auto k = static_cast<std::size_t>(n);
+      if (plane)
+        evaluatePlane(slab, slab.groups[k], slab.ways[k], context, batch);
+      else
+        evaluateGroup(slab, slab.groups[k], slab.ways[k], context, batch);
+    }
   }
   flush(slab, context, batch);
   slab.work += slab.lastWork;
 }
 
-void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, const PassContext& context, Batch& batch) {
+// Most groups need nothing. Which they are is found without a branch: it cannot be foreseen.
+void WallPass::findNearPlane(const SlabWalls& slab, std::size_t wall, const PassContext& context, std::vector<std::int32_t>& found) const {
+  const std::int32_t first = slab.firstGroup[wall], last = slab.firstGroup[wall + 1];
+  const V3 normal = v3(places_[wall].plane->normal);
+  const double offset = places_[wall].plane->offset;
+  found.resize(static_cast<std::size_t>(last - first));
+  std::size_t count = 0;
+  for (std::int32_t n = first; n < last; ++n) {
+    const WallGroup& group = slab.groups[static_cast<std::size_t>(n)];
+    const GrainRow& row = context.rows[group.grain];
+    found[count] = n;
+    count += (dot(normal, row.position()) - offset < row.radius) | (group.awake != 0);
+  }
+  found.resize(count);
+}
+
+void WallPass::findNearMesh(const SlabWalls& slab, std::size_t wall, const PassContext& context, std::vector<std::int32_t>& found) const {
+  const std::int32_t first = slab.firstGroup[wall], last = slab.firstGroup[wall + 1];
+  found.resize(static_cast<std::size_t>(last - first));
+  std::size_t count = 0;
+  for (std::int32_t n = first; n < last; ++n) {
+    const WallGroup& group = slab.groups[static_cast<std::size_t>(n)];
+    const WallWay& way = slab.ways[static_cast<std::size_t>(n)];
+    const double way2 = (places_[wall].toLocal(centreOf(context.rows[group.grain])) - way.start).squaredNorm();
+    found[count] = n;
+    count += !(way2 < way.room * way.room) | (group.awake != 0);
+  }
+  found.resize(count);
+}
+
+// Finds out which candidates the grain may touch before it has gone farther than the margin, at least.
+void WallPass::wake(const Surface& surface, const Vec3& centre, double radius, double margin, SlabWalls& slab, WallGroup& group, WallWay& way) {
+  way.start = centre;
+  way.room = std::numeric_limits<double>::infinity();
+  group.awake = 0;
+  for (std::int32_t c = group.first; c < group.last; ++c) {
+    const WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(c)];
+    const double refusal = candidate.touching ? 0 : surface.refusal(candidate.feature, centre, radius);
+    if (refusal > margin) {
+      way.room = std::min(way.room, refusal);
+      continue;
+    }
+    const auto k = static_cast<std::size_t>(group.first + group.awake++);
+    slab.awake[k] = c;
+    slab.awakeFeatures[k] = candidate.feature;
+    if (!surface.isFace(candidate.feature)) continue;
+    const double over = surface.stayOver(candidate.feature, centre, radius);
+    if (over <= margin) continue;
+    slab.awakeFeatures[k] |= Surface::surelyOver;
+    way.room = std::min(way.room, over);
+  }
+}
+
+void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, WallWay& way, const PassContext& context, Batch& batch) {
   const GrainRow& row = context.rows[group.grain];
   const WallPlace& place = places_[group.wall];
   const Surface& surface = *(*walls_)[group.wall].surface;
-  const Vec3 centre = centreOf(row), local = place.toLocal(centre);
-  const double travel2 = (local - group.centre).squaredNorm();
-  if (travel2 < group.room * group.room) return;
-  const std::span<const std::uint32_t> features(slab.features.data() + group.first, static_cast<std::size_t>(group.last - group.first));
+  const Vec3 local = place.toLocal(centreOf(row));
+  const double travel2 = (local - way.centre).squaredNorm();
+  const bool anew = !((local - way.start).squaredNorm() < way.room * way.room);
+  if (anew) {
+    const double step = context.step.dt * (Vec3(row.vx, row.vy, row.vz) - place.twist.at(centreOf(row))).norm();
+    wake(surface, local, row.radius, std::clamp(roomSteps * step, leastRoom * row.radius, mostRoom * row.radius), slab, group, way);
+  }
+  const std::span<const std::uint32_t> awake(slab.awakeFeatures.data() + group.first, group.awake);
 
   WallContacts& contacts = batch.contacts;
-  surface.contacts(local, row.radius, features, contacts);
+  surface.contacts(local, row.radius, awake, contacts);
 
   // Only a centre that is no farther from a face than it has moved can have gone through it.
   bool mayHaveCrossed = travel2 > 0.0625 * row.radius * row.radius;
   for (const WallContact& contact : contacts) mayHaveCrossed = mayHaveCrossed || contact.distance * contact.distance <= travel2;
-  if (mayHaveCrossed && travel2 > 0 && surface.crossedFace(group.centre, local, features) != Surface::none)
+  if (mayHaveCrossed && travel2 > 0 && surface.crossedFace(way.centre, local, slab.featuresOf(group)) != Surface::none)
     slab.tunnelled.push_back(group.grain);
-  group.centre = local;
-  group.room = 0;
-
-  const Mat3& rotation = place.rotation;
-  bool anyTouched = false;
-  for (std::int32_t c = group.first; c < group.last; ++c) anyTouched = anyTouched || slab.candidates[static_cast<std::size_t>(c)].touching;
-  if (contacts.empty() && !anyTouched) {
-    group.room = surface.clearance(local, row.radius, features);
-    return;
-  }
-  if (law_.stateSize > 0 && anyTouched) handOver(surface, slab, group, contacts, rotation);
+  way.centre = local;
+  if (law_.stateSize > 0) handOver(surface, slab, group, contacts, place.rotation);
 
   // Candidates and contacts both ascend by feature.
   int next = 0;
-  for (std::int32_t c = group.first; c < group.last; ++c) {
+  for (int n = 0; n < group.awake; ++n) {
+    const std::int32_t c = slab.awake[static_cast<std::size_t>(group.first + n)];
     const WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(c)];
     while (next < contacts.size() && contacts[next].feature < candidate.feature) ++next;
     const bool touches = next < contacts.size() && contacts[next].feature == candidate.feature;
-    if (!touches && !candidate.touching) continue;
     if (touches) {
       const WallContact& contact = contacts[next];
-      put(slab, group, c, {rotation * contact.normal, contact.distance, rotation * contact.point + place.pose.translation, contact.weight}, context,
-          batch);
-    } else {
+      put(slab, group, c, {place.rotation * contact.normal, contact.distance, place.rotation * contact.point + place.pose.translation, contact.weight},
+          context, batch);
+    } else if (candidate.touching) {
       putEnded(slab, group, c, context, batch);
     }
   }
 }
 
-// An unbounded plane has one feature and needs no frame of its own.
-void WallPass::evaluatePlane(SlabWalls& slab, WallGroup& group, const PassContext& context, Batch& batch) {
+// An unbounded plane has one feature and needs no frame of its own; it is awake while it touches.
+void WallPass::evaluatePlane(SlabWalls& slab, WallGroup& group, WallWay& way, const PassContext& context, Batch& batch) {
   const GrainRow& row = context.rows[group.grain];
   const WallPlace& place = places_[group.wall];
   const Vec3 centre = centreOf(row);
   const double height = place.plane->signedDistance(centre);
-  const bool touches = height < row.radius, touched = slab.candidates[static_cast<std::size_t>(group.first)].touching;
-  if (!touches && !touched) return;
   if (height < 0) {
     const std::uint32_t feature = 0;
     const Vec3 local = place.toLocal(centre);
-    if ((*walls_)[group.wall].surface->crossedFace(group.centre, local, {&feature, 1}) != Surface::none) slab.tunnelled.push_back(group.grain);
-    group.centre = local;
+    if ((*walls_)[group.wall].surface->crossedFace(way.centre, local, {&feature, 1}) != Surface::none) slab.tunnelled.push_back(group.grain);
+    way.centre = local;
   }
-  if (touches)
+  group.awake = height < row.radius;
+  if (group.awake)
     put(slab, group, group.first, {place.plane->normal, height, centre - height * place.plane->normal, 1}, context, batch);
-  else
+  else if (slab.candidates[static_cast<std::size_t>(group.first)].touching)
     putEnded(slab, group, group.first, context, batch);
 }
 
@@ -273,8 +394,9 @@ void WallPass::putColumns(SlabWalls& slab, const WallGroup& group, std::int32_t 
   const auto k = static_cast<std::size_t>(batch.count++);
   const GrainRow& row = context.rows[group.grain];
   const Wall& wall = (*walls_)[group.wall];
-  const Twist& twist = places_[group.wall].twist;
-  const Vec3 velocity = twist.at(point);
+  const WallPlace& place = places_[group.wall];
+  const Twist& twist = place.twist;
+  const Vec3 velocity = place.turns ? twist.at(point) : twist.velocity;
   batch.grain[k] = group.grain;
   batch.load[k] = loadOf_[group.wall];
   batch.wall[k] = group.wall;
@@ -301,41 +423,38 @@ void WallPass::putColumns(SlabWalls& slab, const WallGroup& group, std::int32_t 
   }
   s.smallerRadius[k] = row.radius;
   s.weight[k] = weight;
-  s.pairClass[k] = static_cast<std::int32_t>(context.material[group.grain] * context.materials + wall.material);
-  const WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(candidateIndex)];
-  for (int component = 0; component < law_.stateSize; ++component) s.memory[component][k] = candidate.memory[component];
+  s.pairClass[k] = context.materials > 1 ? static_cast<std::int32_t>(context.material[group.grain] * context.materials + wall.material) : 0;
+  const double* const memory = slab.memoryOf(candidateIndex);
+  for (int component = 0; component < law_.stateSize; ++component) s.memory[component][k] = memory[component];
 }
 
 // A grain that rolls from one feature to the next stays in contact: the new contact starts with the memory of the old one, as far as
 // their normals agree (at a right angle, where a second contact adds to the first, with nothing).
-void WallPass::handOver(const Surface& surface, SlabWalls& slab, const WallGroup& group, const WallContacts& contacts,
-                        const Mat3& rotation) {
+void WallPass::handOver(const Surface& surface, SlabWalls& slab, const WallGroup& group, const WallContacts& contacts, const Mat3& rotation) {
   const auto isForce = [this](int component) { return (law_.odd >> component & 1U) != 0; };
   const auto touchesNow = [&](std::uint32_t feature) {
     return std::any_of(contacts.begin(), contacts.end(), [&](const WallContact& contact) { return contact.feature == feature; });
   };
-  for (std::int32_t c = group.first; c < group.last; ++c) {
-    WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(c)];
-    if (candidate.touching) continue;
-    const auto contact =
-        std::find_if(contacts.begin(), contacts.end(), [&](const WallContact& each) { return each.feature == candidate.feature; });
-    if (contact == contacts.end()) continue;
-    const Vec3 normal = rotation * contact->normal;
-    WallCandidate* giver = nullptr;
+  const std::span<const std::int32_t> awake(slab.awake.data() + group.first, group.awake);
+  for (const WallContact& contact : contacts) {
+    const auto at = std::find_if(awake.begin(), awake.end(), [&](std::int32_t c) { return slab.candidates[static_cast<std::size_t>(c)].feature == contact.feature; });
+    if (slab.candidates[static_cast<std::size_t>(*at)].touching) continue;
+    const Vec3 normal = rotation * contact.normal;
+    std::int32_t giver = -1;
     double kinship = 0;
-    for (std::int32_t o = group.first; o < group.last; ++o) {
-      WallCandidate& other = slab.candidates[static_cast<std::size_t>(o)];
-      if (!other.touching || !surface.neighbours(candidate.feature, other.feature)) continue;
+    for (const std::int32_t o : awake) {
+      const WallCandidate& other = slab.candidates[static_cast<std::size_t>(o)];
+      if (!other.touching || !surface.neighbours(contact.feature, other.feature)) continue;
       const double k = contactKinship(normal, other.normal);
-      if (k > kinship) kinship = k, giver = &other;
+      if (k > kinship) kinship = k, giver = o;
     }
-    if (!giver) continue;
-    for (int component = 0; component < law_.stateSize; ++component)
-      candidate.memory[component] = (isForce(component) ? kinship : 1) * giver->memory[component];
-    if (touchesNow(giver->feature)) continue;
+    if (giver < 0) continue;
+    double *const to = slab.memoryOf(*at), *const from = slab.memoryOf(giver);
+    for (int component = 0; component < law_.stateSize; ++component) to[component] = (isForce(component) ? kinship : 1) * from[component];
+    if (touchesNow(slab.candidates[static_cast<std::size_t>(giver)].feature)) continue;
     // The giver has ended; what it keeps is let go.
     for (int component = 0; component < law_.stateSize; ++component)
-      if (isForce(component)) giver->memory[component] *= std::sqrt(std::max(0.0, 1 - kinship * kinship));
+      if (isForce(component)) from[component] *= std::sqrt(std::max(0.0, 1 - kinship * kinship));
   }
 }
 
@@ -345,8 +464,9 @@ void WallPass::flush(SlabWalls& slab, const PassContext& context, Batch& batch) 
   batch.kernel(context, batch.count, s, batch.accounts);
   for (int q = 0; q < batch.count; ++q) {
     const auto k = static_cast<std::size_t>(q);
-    WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(batch.candidate[k])];
-    for (int component = 0; component < law_.stateSize; ++component) candidate.memory[component] = s.memory[component][q];
+    const WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(batch.candidate[k])];
+    double* const memory = slab.memoryOf(batch.candidate[k]);
+    for (int component = 0; component < law_.stateSize; ++component) memory[component] = s.memory[component][q];
     if (batch.acting && candidate.touching)
       batch.acting->push_back(contactIn(s, q, batch.grain[k], ActingContact::ofWall(batch.wall[k]), law_.rolls));
     const double inverseRadius = context.rows[batch.grain[k]].inverseRadius;

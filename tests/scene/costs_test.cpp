@@ -34,7 +34,7 @@ TEST(Costs, WhatIsNotNamedIsNeitherAllocatedNorRun) {
   EXPECT_EQ(plan.passes, (std::vector<std::string>{"neighbour lists (when grains have moved)", "pair contacts", "integrate: symplectic Euler"}));
   EXPECT_EQ(plan.bytesPerContact, 0u);
   // A row, a force, the id, the material, and where it was when lists were made.
-  EXPECT_EQ(plan.bytesPerGrain, 12 * 8u + 8 * 8u + 4u + 2u + 3 * 8u);
+  EXPECT_EQ(plan.bytesPerGrain, 12 * 8u + 8 * 8u + 4u + 2u + 3 * 8u + 2 * 8u);  // the last: the skin
   sim::Simulation simulation(std::move(built.model), 1);
   simulation.advance(5);
   Snapshot snapshot;

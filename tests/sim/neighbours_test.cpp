@@ -8,8 +8,12 @@
 
 #include "core/random.h"
 #include "sim/neighbours/cell_grid.h"
+#include "sim/neighbours/drift.h"
 #include "sim/neighbours/pair_lists.h"
+#include "sim/neighbours/skins.h"
 #include "sim/neighbours/slabs.h"
+#include "sim/periodic.h"
+#include "sim/walls/shapes.h"
 #include "verification/models.h"
 
 namespace tsubu::sim {
@@ -72,18 +76,19 @@ TEST(PairLists, HoldEveryNearPairOnceInOrder) {
     const double ratio = std::array{1.0, 3.0, 10.0, 100.0}[static_cast<std::size_t>(round / 5 % 4)];
     State state;
     state.rows = randomRows(random, shape, 1 + round % 90, ratio, round % 7 == 0 ? Vec3(1e6, 0, -1e6) : Vec3(Vec3::Zero()));
-    const double skin = 1e-3 * random.uniform(0.01, 0.5), inner = 0.4 * skin;
+    // Every grain has a skin of its own: most of them thin ones.
+    const double thickest = 1e-3 * random.uniform(0.005, 1), share = 0.4;
+    for (std::size_t g = 0; g < state.rows.size(); ++g) state.skin.push_back(thickest * std::pow(random.uniform(0.01, 1), 3));
     std::vector<std::int32_t> order;
-    const Slabs slabs = sortIntoSlabs(state.rows, 2e-3 + skin, order);
-    std::vector<GrainRow> sorted;
-    for (const std::int32_t old : order) sorted.push_back(state.rows[static_cast<std::size_t>(old)]);
-    state.rows = sorted;
+    const Slabs slabs = sortIntoSlabs(state.rows, 2 * (1e-3 + thickest), order);
+    state.reorder(order);
+    const std::vector<GrainRow>& sorted = state.rows;
     std::vector<std::int32_t> place(order.size());
     std::iota(place.begin(), place.end(), 0);
     CellGrid grid;
-    grid.build(state.rows, skin);
+    grid.build(state.rows, 0, state.skin);
     PairLists pairs(3, 0b111);
-    pairs.build(state, slabs, grid, inner, place, team);
+    pairs.build(state, slabs, grid, share, place, team);
 
     std::set<std::pair<std::int32_t, std::int32_t>> listed, listedInner;
     ASSERT_EQ(slabs.begin(0), 0);
@@ -104,7 +109,7 @@ TEST(PairLists, HoldEveryNearPairOnceInOrder) {
     }
     for (std::size_t a = 0; a < sorted.size(); ++a) {
       for (std::size_t b = a + 1; b < sorted.size(); ++b) {
-        const double g = gap(sorted[a], sorted[b]);
+        const double g = gap(sorted[a], sorted[b]), skin = state.skin[a] + state.skin[b], inner = share * skin;
         const auto pair = std::pair(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b));
         if (std::abs(g - skin) > 1e-9) {
           ASSERT_EQ(listed.contains(pair), g < skin) << "round " << round;
@@ -151,6 +156,140 @@ TEST(Lists, NeverMissAContactWhileGrainsMove) {
       }
     }
   }
+}
+
+GrainRow rowAt(double x, double speed) { return {x, 0, 0, 1e-3, 0, 0, -speed, 1, 0, 0, 0, 1e3}; }
+
+TEST(Skins, FollowTheFastestGrainNearby) {
+  const SkinRule rule{1e-3, 1e-4, 9e-4};
+  // Beside a grain of 0.5 m/s one at rest may soon go as fast; far away none may.
+  const std::vector<double> skins = chooseSkins({rowAt(0, 0), rowAt(2e-3, 0.5), rowAt(0.1, 0), rowAt(0.2, 7), rowAt(0.3, 0.2)}, rule);
+  EXPECT_DOUBLE_EQ(skins[0], 5e-4);
+  EXPECT_DOUBLE_EQ(skins[1], 5e-4);
+  EXPECT_DOUBLE_EQ(skins[2], rule.least);
+  EXPECT_DOUBLE_EQ(skins[3], rule.most);
+  EXPECT_DOUBLE_EQ(skins[4], 2e-4);
+  EXPECT_TRUE(chooseSkins({}, rule).empty());
+}
+
+TEST(Drift, EndsTheListsThatReadASlabAndNoOthers) {
+  Drift drift;
+  drift.restart({{0, 1}, {1, 2}, {2}});
+  drift.add(0, 0.04);
+  drift.add(1, 0.06);
+  drift.add(2, 0);
+  EXPECT_FALSE(drift.beyond(0, 0.1, 0));
+  EXPECT_TRUE(drift.beyond(0, 0.1, 1)) << "not for another step like this";
+  drift.add(1, 0.06);
+  EXPECT_TRUE(drift.beyond(0, 0.1, 0));
+  EXPECT_TRUE(drift.beyond(1, 0.1, 0));
+  EXPECT_FALSE(drift.beyond(2, 0.1, 0));
+  drift.filtered(1);
+  EXPECT_FALSE(drift.beyond(1, 0.1, 0));
+  EXPECT_TRUE(drift.beyond(0, 0.1, 0)) << "this one has not been filtered";
+  EXPECT_DOUBLE_EQ(drift.sinceSearch(1), 0.12);
+  drift.add(2, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_TRUE(drift.beyond(2, 0.1, 0));
+}
+
+/// Contacts of all grains with each other, across the boundary too, and with all features of all walls.
+std::uint64_t touchingByBruteForce(const Snapshot& now, const Model& model, double time) {
+  const Periods periods(model.domain, model.periodic);
+  std::uint64_t touching = 0;
+  for (std::size_t a = 0; a < now.grains(); ++a)
+    for (std::size_t b = a + 1; b < now.grains(); ++b)
+      touching += periods.nearest(now.position[a] - now.position[b]).norm() < now.radius[a] + now.radius[b];
+  for (const Wall& wall : model.walls) {
+    std::vector<std::uint32_t> all(wall.surface->featureCount());
+    std::iota(all.begin(), all.end(), 0U);
+    WallContacts contacts;
+    for (std::size_t g = 0; g < now.grains(); ++g) {
+      wall.surface->contacts(wall.motion.at(time).toLocal(now.position[g]), now.radius[g], all, contacts);
+      touching += static_cast<std::uint64_t>(contacts.size());
+    }
+  }
+  return touching;
+}
+
+/// Grains of several sizes that lie apart at rest, and above them fast ones that fly into them.
+test::Scenario fastAboveResting(std::uint64_t seed) {
+  test::Scenario s;
+  s.pair[Property::normalStiffness] = 4000;
+  s.pair[Property::restitution] = 0.95;
+  s.model.watch.stop = false;
+  s.model.domain = Box(Vec3::Constant(-6.6e-3), Vec3::Constant(6.6e-3));
+  Random random(seed, 34);
+  for (int n = 0; n < 5 * 5 * 6; ++n) {
+    const bool fast = n >= 125;
+    const Vec3 x = 2.4e-3 * Vec3(n % 5 - 2, n / 5 % 5 - 2, n / 25 - 2.2), v = fast ? 12 * test::randomIn(random, -Vec3::Ones(), Vec3::Ones()) : Vec3(0, 0, 0);
+    const double r = fast ? 0.5e-3 : 1e-3 * random.uniform(0.3, 1.1);
+    s.grain(2500 * 4.2 * r * r * r, r, x, v);
+  }
+  return s;
+}
+
+std::uint64_t expectAllContactsAreFound(const test::Scenario& scenario, const std::string& what, int looks = 100) {
+  test::Scenario s = scenario;
+  s.model.contactForces = true;
+  Simulation sim = s.start(2e-6);
+  std::uint64_t seen = 0;
+  for (int n = 0; n < looks; ++n) {
+    sim.advance(7);
+    const Snapshot now = test::look(sim);
+    const std::uint64_t touching = touchingByBruteForce(now, s.model, sim.time());
+    seen += touching;
+    EXPECT_EQ(sim.contacts().touching, touching) << what << ", look " << n;
+    EXPECT_EQ(sim.instant().contacts.size(), touching) << what << ", look " << n << ": those that act";
+    if (::testing::Test::HasFailure()) return 0;
+  }
+  EXPECT_GT(seen, static_cast<std::uint64_t>(looks)) << what << ": nothing happens";
+  return sim.counts().impacts;
+}
+
+WallMotion shaken() { return WallMotion({{Oscillation{{8e-4, 5e-4, 1e-3}, 300, 0.2}, 0, 1e9}, {Rotation{{0, 0, 0}, Vec3::UnitZ(), 40}, 0, 1e9}}); }
+
+TEST(Lists, NeverMissAContactOfFastGrainsBesideRestingOnes) {
+  for (const double skin : {0.0, 2e-5, 2e-3}) {
+    for (const Integrator integrator : {Integrator::symplecticEuler, Integrator::velocityVerlet, Integrator::rungeKutta}) {
+      test::Scenario s = fastAboveResting(1);
+      s.model.skin = skin;
+      s.model.integrator = integrator;
+      s.model.periodic = {true, true, true};
+      expectAllContactsAreFound(s, "periodic");
+
+      s.model.periodic = {};
+      s.model.domain = Box(Vec3::Constant(-1), Vec3::Constant(1));
+      s.wall(Surface(test::makeBox(Vec3::Constant(-7.5e-3), Vec3::Constant(7.5e-3))));
+      s.wall(Surface(test::makeCone(24, 1e-3, -7e-3, 8e-3, 4e-3)));
+      expectAllContactsAreFound(s, "meshes");
+      s.model.walls[0].motion = shaken();
+      s.plane({0, 0, -7e-3}, {0, 0, 1}, WallMotion({{Oscillation{{0, 0, 1e-3}, 400, 0}, 0, 1e9}}));
+      expectAllContactsAreFound(s, "meshes and a plane that are shaken");
+    }
+  }
+}
+
+TEST(Lists, NeverMissAContactWhereWaysAreSwept) {
+  test::Scenario s = fastAboveResting(2);
+  s.model.continuous = true;
+  s.pair[Property::normalStiffness] = 400;
+  for (Grain& grain : s.model.grains) grain.velocity *= 2;
+  s.model.domain = Box(Vec3::Constant(-1), Vec3::Constant(1));
+  s.wall(Surface(test::makeBox(Vec3::Constant(-7.5e-3), Vec3::Constant(7.5e-3))));
+  EXPECT_GT(expectAllContactsAreFound(s, "swept", 300), 10U);
+}
+
+TEST(Lists, NeverMissAContactOfGrainsThatComeAndGo) {
+  test::Scenario s = fastAboveResting(3);
+  s.model.domain = Box(Vec3(-8e-3, -8e-3, -7e-3), Vec3(8e-3, 8e-3, 1.2e-2));
+  Stream stream;
+  stream.name = "rain";
+  stream.region.shape = BoxRegion{{-7e-3, -7e-3, 8e-3}, {7e-3, 7e-3, 1.1e-2}};
+  stream.grainsPerSecond = 1e5;
+  stream.radii.kind = UniformRadius{0.3e-3, 0.9e-3};
+  stream.velocity = {0, 0, -10};
+  s.model.streams.push_back(stream);
+  expectAllContactsAreFound(s, "rain", 200);
 }
 
 }  // namespace

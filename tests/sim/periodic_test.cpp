@@ -67,7 +67,7 @@ TEST(PeriodicLists, HoldEveryNearPairOnceWithItsNearestImage) {
   Random random(5, 2);
   ThreadTeam team(2);
   for (int round = 0; round < 600; ++round) {
-    const double skin = 1e-3 * random.uniform(0.05, 0.4), least = 2 * (2e-3 + skin);
+    const double thickest = 1e-3 * random.uniform(0.05, 0.4), least = 4 * (1e-3 + thickest);
     const Vec3 length(random.uniform(least, 3 * least), random.uniform(least, 6 * least), random.uniform(least, 2 * least));
     const Vec3 corner = round % 7 == 0 ? Vec3(1e3, -1e3, 50) : Vec3(randomVec(random, 1e-2));
     const Box box(corner, corner + length);
@@ -77,14 +77,15 @@ TEST(PeriodicLists, HoldEveryNearPairOnceWithItsNearestImage) {
     state.rows = randomRows(random, box, 1 + round % 80, std::array{1.0, 3.0, 30.0}[static_cast<std::size_t>(round / 7 % 3)]);
     state.material.resize(state.rows.size());
     state.forces.resize(state.rows.size());
+    for (std::size_t g = 0; g < state.rows.size(); ++g) state.skin.push_back(thickest * random.uniform(0.1, 1));
     std::vector<std::int32_t> order, place(state.rows.size());
-    const Slabs slabs = sortIntoSlabs(state.rows, 2e-3 + skin, order);
+    const Slabs slabs = sortIntoSlabs(state.rows, 2 * (1e-3 + thickest), order);
     state.reorder(order);
     const std::size_t grains = state.size();
     CellGrid grid;
-    grid.build(state.rows, skin);
+    grid.build(state.rows, 0, state.skin);
     PairLists lists(0, 0);
-    lists.build(state, slabs, grid, 0.5 * skin, place, team, periods);
+    lists.build(state, slabs, grid, 0.5, place, team, periods);
     ASSERT_EQ(state.size(), grains);
 
     std::set<std::pair<std::int32_t, std::int32_t>> listed;
@@ -108,7 +109,7 @@ TEST(PeriodicLists, HoldEveryNearPairOnceWithItsNearestImage) {
     for (std::size_t a = 0; a < grains; ++a) {
       for (std::size_t b = a + 1; b < grains; ++b) {
         const double distance = periods.nearest(placeOf(state.rows[a]) - placeOf(state.rows[b])).norm();
-        const double excess = distance - state.rows[a].radius - state.rows[b].radius - skin;
+        const double excess = distance - state.rows[a].radius - state.rows[b].radius - state.skin[a] - state.skin[b];
         if (std::abs(excess) < 1e-9) continue;
         ASSERT_EQ(listed.contains({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)}), excess < 0) << "round " << round;
       }

@@ -2,7 +2,7 @@
 // The loops over grains and over listed pairs that know no law: moving grains, and finding the pairs that are near. Row by row, four
 // doubles at once; the fourth goes along: what a row keeps there (radius, 1/m, 1/r) is multiplied by a step of 0 and stays.
 
-#include "sim/kernel/kernels.h"
+#include "sim/kernel/grain_kernels.h"
 #include "sim/kernel/lanes.h"
 
 namespace tsubu::sim {
@@ -67,7 +67,7 @@ Motion moveGrains(const MoveContext& context, std::int32_t first, std::int32_t l
   Motion motion;
   for (std::int32_t g = first; g < last; ++g) {
     const D4 speed = moveGrain<scheme, turns>(context, step, gravity, g), square = speed * speed;
-    motion.add(square[0] + square[1] + square[2], context.dt * context.rows[g].inverseRadius);
+    motion.add(square[0] + square[1] + square[2], context.dt * context.rows[g].inverseRadius, context.perSkin2[g]);
   }
   return motion;
 }
@@ -89,19 +89,20 @@ MoveKernel moveFor(Integrator scheme, bool turns) {
   return turns ? &moveGrains<Integrator::symplecticEuler, true> : &moveGrains<Integrator::symplecticEuler, false>;
 }
 
-std::int64_t nearPairs(const GrainRow* rows, const std::int32_t* is, const std::int32_t* js, std::int64_t count, double skin,
-                       std::int32_t* kept) {
-  const D4 signs{-1, -1, -1, 1}, margin = fill4(skin);
+std::int64_t nearPairs(const GrainRow* rows, const double* skins, double share, const std::int32_t* is, const std::int32_t* js,
+                       std::int64_t count, std::int32_t* kept) {
+  const D4 signs{-1, -1, -1, 1};
   std::int64_t found = 0;
   for (std::int64_t q = 0; q < count; q += 4) {
     const int few = static_cast<int>(count - q < 4 ? count - q : 4);
-    D4 x[4];
+    D4 x[4], skin{};
     for (int k = 0; k < 4; ++k) {
       const std::int64_t from = q + (k < few ? k : few - 1);
       x[k] = load4(&rows[is[from]].x) + signs * load4(&rows[js[from]].x);
+      skin[k] = skins[is[from]] + skins[js[from]];
     }
     transpose4(x[0], x[1], x[2], x[3]);
-    const D4 reach = x[3] + margin;
+    const D4 reach = x[3] + fill4(share) * skin;
     const auto near = x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < reach * reach;
     // Without a branch: which pairs are near cannot be foreseen.
     for (int k = 0; k < few; ++k) {

@@ -1,9 +1,9 @@
 #pragma once
-// The inner loops, compiled once for each instruction set and chosen when the program starts. All give the same bits.
+// The inner loops, compiled once for each instruction set and chosen when the program starts. All give the same bits. Those that know no
+// law are a translation unit of their own (grain_kernels.h): a change of them compiles in seconds, one of the laws' takes minutes.
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +14,8 @@
 #include "sim/scheme.h"
 
 namespace tsubu::sim {
+
+struct GrainKernels;
 
 /// A run of listed pairs (i < j) with their memory: component c of contact k at memory[c * stride + k].
 struct PairRange {
@@ -50,38 +52,6 @@ using PairKernel = PairKernelIn<double>;
 /// Computes `count` wall contacts that lie in the stage, memory included.
 using WallKernel = void (*)(const PassContext&, int count, Stage&, Accounts&);
 
-/// The columns of the state that moving grains reads and writes; null where the scheme or the scene has none.
-struct MoveContext {
-  GrainRow* rows;
-  ForceRow* forces;
-  HalfStepRow* half;
-  PlaceRow* previous;
-  AngleRow* turned;
-  V3 gravity;  ///< m/s²
-  double dt;   ///< s
-};
-
-/// What a pass over grains finds.
-struct Motion {
-  double fastest2 = 0;  ///< (m/s)²: the largest squared speed
-  double travel2 = 0;   ///< largest (distance moved in the step / radius)²; NaN counts as infinite
-
-  /// A grain goes with the square of this speed; `scale`: Δt/r.
-  TSUBU_INLINE void add(double speed2, double scale) {
-    const double way2 = speed2 * scale * scale;
-    fastest2 = speed2 > fastest2 ? speed2 : fastest2;
-    if (!(way2 <= travel2)) travel2 = way2 == way2 ? way2 : std::numeric_limits<double>::infinity();
-  }
-};
-
-/// Moves grains [first, last) by one step (docs/physics.md, I1–I6) and clears their forces.
-using MoveKernel = Motion (*)(const MoveContext&, std::int32_t first, std::int32_t last);
-
-/// Which of `count` pairs are nearer than the sum of their radii and the skin (m): their places, in order. `kept` has room for `count`
-/// rounded up to a multiple of four. Returns how many.
-using NearKernel = std::int64_t (*)(const GrainRow* rows, const std::int32_t* i, const std::int32_t* j, std::int64_t count, double skin,
-                                    std::int32_t* kept);
-
 /// The loops for one instruction set; nullptr where it has none of its own for a law and kind.
 struct Kernels {
   std::string_view isa;
@@ -89,8 +59,7 @@ struct Kernels {
   PairKernelIn<float> (*singlePairPass)(std::size_t law, PassKind kind);
   WallKernel (*wallPass)(std::size_t law, PassKind kind);
   BondKernel (*bonds)(BondDamping, bool breakable);       ///< all of them
-  MoveKernel (*move)(Integrator scheme, bool turns);      ///< all but Runge–Kutta
-  NearKernel nearPairs;
+  const GrainKernels* grains;                             ///< those that know no law
 };
 
 /// A loop and how it wants its constants.

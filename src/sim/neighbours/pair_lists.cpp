@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "sim/kernel/grain_kernels.h"
 #include "sim/kernel/kernels.h"
 
 namespace tsubu::sim {
@@ -97,31 +98,19 @@ void PairLists::placeRemembered(std::size_t grains, const std::vector<std::int32
 
 void PairLists::searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, FlatPairs& own,
                            FlatPairs& before) const {
-  // Candidates of some grains at a time, as many as lie in the first-level cache with their grains.
-  constexpr std::size_t some = 2048;
-  std::vector<std::int32_t> grains, partners, near;
-  std::size_t count = 0;
-  const auto sift = [&] {
-    near.resize(count + 3);
-    const auto found =
-        kernels().nearPairs(state.rows.data(), grains.data(), partners.data(), static_cast<std::int64_t>(count), grid.reach(), near.data());
-    for (std::int64_t n = 0; n < found; ++n) {
-      const auto k = static_cast<std::size_t>(near[static_cast<std::size_t>(n)]);
-      const std::int32_t i = std::min(grains[k], partners[k]), j = std::max(grains[k], partners[k]);
-      std::vector<std::int32_t>& list = i >= slabs.begin(slab) ? own : before;
+  const std::int32_t first = slabs.begin(slab);
+  std::vector<std::int32_t> partners;
+  own.reserve(16 * static_cast<std::size_t>(slabs.end(slab) - first));
+  for (std::int32_t g = first; g < slabs.end(slab); ++g) {
+    const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
+    const std::size_t count = grid.partners(Vec3(row.x, row.y, row.z), row.radius + state.skin[static_cast<std::size_t>(g)], g, partners);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::int32_t i = std::min(g, partners[k]), j = std::max(g, partners[k]);
+      FlatPairs& list = i >= first ? own : before;
       list.push_back(i);
       list.push_back(j);
     }
-    grains.clear();
-    count = 0;
-  };
-  for (std::int32_t g = slabs.begin(slab); g < slabs.end(slab); ++g) {
-    const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
-    count = grid.partners(Vec3(row.x, row.y, row.z), row.radius, g, partners, count);
-    grains.resize(count, g);
-    if (count >= some) sift();
   }
-  sift();
 }
 
 // Of the two ways to see a pair across the boundary one is taken: shifts with a positive number.
@@ -136,10 +125,11 @@ void PairLists::searchAcross(const State& state, const Slabs& slabs, const CellG
   for (std::int32_t g = slabs.begin(slab); g < slabs.end(slab); ++g) {
     const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
     const Vec3 x(row.x, row.y, row.z);
-    periods.forImages(x, grid.farthest(row.radius), [&](int shift) {
+    const double radius = row.radius + state.skin[static_cast<std::size_t>(g)];
+    periods.forImages(x, grid.farthest(radius), [&](int shift) {
       if (shift < 0) return;
       partners.clear();
-      grid.near(x + periods.shift(shift), row.radius, g, partners);
+      grid.near(x + periods.shift(shift), radius, g, partners);
       for (const std::int32_t partner : partners) found.push_back({g, partner, -shift});
     });
   }
@@ -169,6 +159,7 @@ void PairLists::placeImages(State& state, const Slabs& slabs) {
       const std::int32_t row = grains + static_cast<std::int32_t>(folds_.size());
       folds_.push_back({image.owner, row});
       state.material[static_cast<std::size_t>(row)] = state.material[static_cast<std::size_t>(image.owner)];
+      state.skin[static_cast<std::size_t>(row)] = state.skin[static_cast<std::size_t>(image.owner)];
     }
   }
   std::stable_sort(folds_.begin(), folds_.end(), [](const Fold& a, const Fold& b) { return a.owner < b.owner; });
@@ -198,7 +189,7 @@ void PairLists::foldImages(State& state, int slab) const {
   }
 }
 
-void PairLists::build(State& state, const Slabs& slabs, const CellGrid& grid, double innerSkin, const std::vector<std::int32_t>& newPlace,
+void PairLists::build(State& state, const Slabs& slabs, const CellGrid& grid, double share, const std::vector<std::int32_t>& newPlace,
                       ThreadTeam& team, const Periods& periods) {
   const int count = slabs.count();
   std::vector<FlatPairs> own(static_cast<std::size_t>(count)), before(static_cast<std::size_t>(count) + 1),
@@ -218,7 +209,7 @@ void PairLists::build(State& state, const Slabs& slabs, const CellGrid& grid, do
     for (std::size_t k = 1; k < across[s].size(); k += 2) across[s][k] += pairs.firstImage;
     sortPairs({&own[s], &before[s + 1], &across[s]}, slabs.begin(slab), slabs.end(slab), pairs.outerI, pairs.outerJ);
     for (FlatPairs* sorted : {&own[s], &before[s + 1], &across[s]}) *sorted = FlatPairs();
-    filterSlab(state, pairs, innerSkin, rooms_[static_cast<std::size_t>(thread)]);
+    filterSlab(state, pairs, share, rooms_[static_cast<std::size_t>(thread)]);
     if (stateSize_ > 0) handMemory(pairs);
   });
   remembered_ = Remembered();
@@ -240,18 +231,14 @@ void visitPair(const SlabPairs& slab, const std::vector<std::int32_t>& is, const
   }
 }
 
-std::size_t slabOf(const Slabs& slabs, std::int32_t grain) {
-  return static_cast<std::size_t>(std::upper_bound(slabs.first.begin(), slabs.first.end(), grain) - slabs.first.begin()) - 1;
-}
-
 }  // namespace
 
 void PairLists::setTouch(const Slabs& slabs, std::int32_t a, std::int32_t b, double distance) {
   const auto set = [&](std::int32_t i, std::int32_t j) {
-    SlabPairs& pairs = slabs_[slabOf(slabs, i)];
+    SlabPairs& pairs = slabs_[static_cast<std::size_t>(slabs.of(i))];
     visitPair(pairs, pairs.outerI, pairs.outerJ, i, j, [&](std::size_t k) {
       if (pairs.outerTouch.empty()) pairs.outerTouch.assign(pairs.outerI.size(), 0.0);
-      stale_ = stale_ || (pairs.outerTouch[k] < 0) != (distance < 0);
+      pairs.stale = pairs.stale || (pairs.outerTouch[k] < 0) != (distance < 0);
       pairs.outerTouch[k] = distance;
     });
     visitPair(pairs, pairs.i, pairs.j, i, j, [&](std::size_t k) {
@@ -266,7 +253,7 @@ void PairLists::setTouch(const Slabs& slabs, std::int32_t a, std::int32_t b, dou
 const double* PairLists::memoryOf(const Slabs& slabs, std::int32_t a, std::int32_t b, std::size_t& stride) const {
   const double* memory = nullptr;
   const auto find = [&](std::int32_t i, std::int32_t j) {
-    const SlabPairs& pairs = slabs_[slabOf(slabs, i)];
+    const SlabPairs& pairs = slabs_[static_cast<std::size_t>(slabs.of(i))];
     visitPair(pairs, pairs.i, pairs.j, i, j, [&](std::size_t k) {
       memory = pairs.memory.data() + k;
       stride = pairs.stride;
@@ -297,11 +284,24 @@ void PairLists::handMemory(SlabPairs& pairs) const {
   }
 }
 
-void PairLists::refilter(State& state, double innerSkin, ThreadTeam& team) {
-  stale_ = false;
-  team.run(static_cast<int>(slabs_.size()), [&](int slab, int thread) {
-    filterSlab(state, slabs_[static_cast<std::size_t>(slab)], innerSkin, rooms_[static_cast<std::size_t>(thread)]);
+void PairLists::refilter(State& state, double share, const std::vector<int>& lists, ThreadTeam& team) {
+  team.run(static_cast<int>(lists.size()), [&](int n, int thread) {
+    SlabPairs& list = slabs_[static_cast<std::size_t>(lists[static_cast<std::size_t>(n)])];
+    filterSlab(state, list, share, rooms_[static_cast<std::size_t>(thread)]);
   });
+}
+
+std::vector<std::vector<int>> PairLists::slabsInLists(const Slabs& slabs) const {
+  std::vector<std::vector<int>> all;
+  for (int s = 0; s < slabs.count(); ++s) {
+    std::vector<int> of{s};
+    if (s + 1 < slabs.count()) of.push_back(s + 1);
+    for (const Image& image : slabs_[static_cast<std::size_t>(s)].images) of.push_back(slabs.of(image.owner));
+    std::sort(of.begin(), of.end());
+    of.erase(std::unique(of.begin(), of.end()), of.end());
+    all.push_back(std::move(of));
+  }
+  return all;
 }
 
 namespace {
@@ -318,12 +318,13 @@ void fit(std::vector<T>& items, std::size_t count) {
 
 }  // namespace
 
-void PairLists::filterSlab(State& state, SlabPairs& pairs, double innerSkin, Room& room) const {
+void PairLists::filterSlab(State& state, SlabPairs& pairs, double share, Room& room) const {
+  pairs.stale = false;
   refreshImages(state, pairs);
   const std::size_t outer = pairs.outerI.size();
   if (room.near.size() < outer + 3) room.near.resize(outer + 3);
-  const std::int64_t found = kernels().nearPairs(state.rows.data(), pairs.outerI.data(), pairs.outerJ.data(),
-                                                 static_cast<std::int64_t>(outer), innerSkin, room.near.data());
+  const std::int64_t found = kernels().grains->nearPairs(state.rows.data(), state.skin.data(), share, pairs.outerI.data(), pairs.outerJ.data(),
+                                                         static_cast<std::int64_t>(outer), room.near.data());
   const auto begin = room.near.begin();
   auto end = begin + found;
   if (!pairs.outerTouch.empty())

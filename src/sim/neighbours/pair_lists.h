@@ -1,7 +1,7 @@
 #pragma once
-// Who may touch whom. Two lists: the outer one (all pairs nearer than the outer skin) is searched for rarely; the inner one (nearer
-// than the inner skin) is what every step walks, refiltered from the outer one whenever grains may have moved half the inner skin.
-// The memory of contacts lies along the inner list.
+// Who may touch whom. Two lists: the outer one (all pairs nearer than the sum of their skins) is searched for rarely; the inner one (nearer
+// than a share of it) is what every step walks, refiltered from the outer one whenever one of its grains may have gone farther than that share
+// of its skin (drift.h). The memory of contacts lies along the inner list.
 //
 // Across a periodic boundary (docs/physics.md, W5) a grain meets the image of its partner: a row beyond those of the grains, copied from
 // its owner with a shift before every pass. The slab of the grain has its own images, so that no two slabs write to the same row;
@@ -33,6 +33,7 @@ struct SlabPairs {
   std::vector<double> memory;                  ///< component c of inner pair k at memory[c * stride + k]
   std::size_t stride = 0;
   std::vector<double> outerTouch, touch;       ///< m: see PairRange::touch, along each list; empty: none
+  bool stale = false;                          ///< pairs have begun or ceased to touch: the inner list must be made anew
 
   /// m: the distance of the centres at which pair k begins to touch, given the sum of its radii.
   double touchOf(std::size_t k, double radiusSum) const { return touch.empty() || touch[k] == 0 ? radiusSum : touch[k]; }
@@ -50,13 +51,15 @@ class PairLists {
 
   /// Notes which contacts carry memory before the grains are put into a new order, and lets the lists go.
   void rememberContacts();
-  /// Searches the outer lists anew (grains in slab order, grid built) and hands the remembered memory to the same pairs.
-  /// `newPlace`: old place → new place, −1 for grains that are gone.
+  /// Searches the outer lists anew (grains in slab order with their skins, grid built with these) and hands the remembered memory to the same pairs.
+  /// `share`: of the skins, for the inner lists. `newPlace`: old place → new place, −1 for grains that are gone.
   /// With `periods`, grains lie in the domain; images are made and the state gets rows for them.
-  void build(State& state, const Slabs& slabs, const CellGrid& grid, double innerSkin, const std::vector<std::int32_t>& newPlace,
+  void build(State& state, const Slabs& slabs, const CellGrid& grid, double share, const std::vector<std::int32_t>& newPlace,
              ThreadTeam& team, const Periods& periods = {});
-  /// Makes the inner lists from the outer ones; memory follows.
-  void refilter(State& state, double innerSkin, ThreadTeam& team);
+  /// Makes those inner lists anew from the outer ones; memory follows.
+  void refilter(State& state, double share, const std::vector<int>& lists, ThreadTeam& team);
+  /// For each list, the slabs whose grains are in it.
+  std::vector<std::vector<int>> slabsInLists(const Slabs& slabs) const;
 
   /// Copies the present rows of the owners to the images of a slab.
   static void refreshImages(State& state, const SlabPairs& slab);
@@ -68,8 +71,6 @@ class PairLists {
   /// never, then the inner list does without it.
   void setTouch(const Slabs& slabs, std::int32_t a, std::int32_t b, double distance);
 
-  /// Must the inner lists be made anew, since pairs have begun or ceased to touch?
-  bool stale() const { return stale_; }
   /// Memory of a pair (any order) in the inner list, component c at [c * stride]; null when it is not there.
   const double* memoryOf(const Slabs& slabs, std::int32_t a, std::int32_t b, std::size_t& stride) const;
 
@@ -97,11 +98,10 @@ class PairLists {
   void placeImages(State& state, const Slabs& slabs);
   void placeRemembered(std::size_t grains, const std::vector<std::int32_t>& newPlace);
   void handMemory(SlabPairs& pairs) const;
-  void filterSlab(State& state, SlabPairs& pairs, double innerSkin, Room& room) const;
+  void filterSlab(State& state, SlabPairs& pairs, double share, Room& room) const;
   void keepMemory(SlabPairs& pairs, std::size_t before, const Room& room) const;
 
   int stateSize_;
-  bool stale_ = false;
   unsigned odd_;
   std::vector<SlabPairs> slabs_;
   Remembered remembered_;

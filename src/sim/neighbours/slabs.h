@@ -3,6 +3,7 @@
 // neighbours at most: slab k writes only to k and k + 1, and even and odd slabs in turn keep threads apart. The layout depends on the
 // grains alone and never on the number of threads.
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct Slabs {
 
   int count() const { return static_cast<int>(first.size()) - 1; }
   std::int32_t begin(int slab) const { return first[static_cast<std::size_t>(slab)]; }
+  /// The slab of a grain.
+  int of(std::int32_t grain) const { return static_cast<int>(std::upper_bound(first.begin(), first.end(), grain) - first.begin()) - 1; }
   std::int32_t end(int slab) const { return first[static_cast<std::size_t>(slab) + 1]; }
 };
 

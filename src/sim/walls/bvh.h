@@ -16,13 +16,24 @@ class Bvh {
   /// Calls visit(item) for every box nearer than `reach` to the point, in an order that depends on the boxes only.
   template <class Visit>
   void near(const Vec3& point, double reach, Visit&& visit) const {
-    walk([&](const Box& box) { return box.squaredExteriorDistance(point) <= reach * reach; }, visit);
+    // Without a branch: on which side of a box a point lies cannot be foreseen.
+    const auto squaredDistance = [&](const Box& box) {
+      return (box.min() - point).cwiseMax(point - box.max()).cwiseMax(0.0).squaredNorm();
+    };
+    walk([&](const Box& box) { return squaredDistance(box) <= reach * reach; }, visit);
   }
 
   /// Calls visit(item) for every box that the segment from a to b meets.
   template <class Visit>
   void alongSegment(const Vec3& a, const Vec3& b, Visit&& visit) const {
     walk([&](const Box& box) { return meets(box, a, b); }, visit);
+  }
+
+  /// Does any box meet the given one?
+  bool meetsAny(const Box& other) const {
+    bool any = false;
+    walk([&](const Box& box) { return !any && box.intersects(other); }, [&](std::uint32_t) { any = true; });
+    return any;
   }
 
   /// Calls visit(item) for every box that meets the given one.

@@ -97,20 +97,59 @@ void Surface::candidates(const Vec3& centre, double reach, std::vector<std::uint
   std::sort(found.begin(), found.end());
 }
 
+bool Surface::mayMeet(const Box& box) const {
+  if (const auto plane = asPlane()) {
+    const Vec3 corner = (plane->normal.array() > 0).select(box.min(), box.max());
+    return plane->signedDistance(corner) < 0;
+  }
+  return bvh_.meetsAny(box);
+}
+
 double Surface::squaredDistanceTo(std::uint32_t feature, const Vec3& point, double reach) const {
   if (feature < faceCount()) return squaredDistanceToFace(features_.faces[feature], point, reach);
   if (feature < faceCount() + edgeCount()) return squaredDistanceToEdge(features_.edges[feature - faceCount()], point);
   return (features_.corners[feature - faceCount() - edgeCount()].point - point).squaredNorm();
 }
 
-double Surface::clearance(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates) const {
+double Surface::refusal(std::uint32_t feature, const Vec3& centre, double radius) const {
+  // Each reason to refuse loses as much as the centre goes, at most: the best of them holds longest.
+  double reason = 0;
+  const auto because = [&](double margin) { reason = std::max(reason, margin); };
+  const std::uint32_t faces = faceCount(), facesAndEdges = faces + edgeCount();
+  if (feature < faces) {
+    const Face& face = features_.faces[feature];
+    const double height = face.plane.signedDistance(centre), most = 4 * radius;
+    because((face.unbounded ? height : std::abs(height)) - radius);
+    if (reason < 0.25 * radius && !face.unbounded && !face.outline.contains(face.project(centre)))
+      because(std::min(most, std::sqrt(face.outline.squaredDistance(face.project(centre), most))));
+  } else if (feature < facesAndEdges) {
+    const Edge& edge = features_.edges[feature - faces];
+    const Vec3 from = centre - edge.start;
+    const double along = from.dot(edge.direction);
+    because(std::max(-along, along - edge.length));
+    because((from - along * edge.direction).norm() - radius);
+    for (std::uint32_t s = edge.sidesBegin; s < edge.sidesEnd; ++s) because(from.dot(features_.sides[s].inward) - 2 * features_.slack);
+  } else {
+    const Corner& corner = features_.corners[feature - facesAndEdges];
+    const Vec3 away = centre - corner.point;
+    because(away.norm() - radius);
+    for (std::uint32_t e = corner.edgesBegin; e < corner.edgesEnd; ++e) because(away.dot(features_.cornerEdges[e]) - 2 * features_.slack);
+  }
   // A little less than what rounding could make of it.
-  constexpr double safe = 1 - 1e-9;
-  if (asPlane()) return safe * std::max(0.0, features_.faces[0].plane.signedDistance(centre) - radius);
-  // Beyond this nobody wants to know.
-  double nearest = 4 * radius;
-  for (const std::uint32_t feature : candidates) nearest = std::min(nearest, std::sqrt(squaredDistanceTo(feature, centre, nearest)));
-  return safe * std::max(0.0, nearest - radius);
+  return (1 - 1e-9) * reason;
+}
+
+double Surface::stayOver(std::uint32_t face, const Vec3& centre, double farthest) const {
+  const Face& of = features_.faces[face];
+  const Vec2 foot = of.project(centre);
+  if (of.unbounded || !of.outline.contains(foot)) return 0;
+  return (1 - 1e-9) * std::min(farthest, std::sqrt(of.outline.squaredDistance(foot, farthest)));
+}
+
+double Surface::clearance(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t feature : candidates) least = std::min(least, refusal(feature, centre, radius));
+  return least;
 }
 
 void Surface::contacts(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates, WallContacts& contacts) const {
@@ -122,10 +161,11 @@ void Surface::nearestPoints(const Vec3& centre, double radius, std::span<const s
   contacts.clear();
   const std::uint32_t faces = faceCount(), facesAndEdges = faces + edgeCount();
   WallContact contact;
-  for (const std::uint32_t feature : candidates) {
+  for (const std::uint32_t marked : candidates) {
+    const std::uint32_t feature = marked & ~surelyOver;
     bool touching;
     if (feature < faces)
-      touching = closestOnFace(features_.faces[feature], centre, radius, contact);
+      touching = closestOnFace(features_.faces[feature], centre, radius, marked != feature, contact);
     else if (feature < facesAndEdges)
       touching = closestOnEdge(features_.edges[feature - faces], centre, radius, contact);
     else
@@ -136,14 +176,14 @@ void Surface::nearestPoints(const Vec3& centre, double radius, std::span<const s
   }
 }
 
-bool Surface::closestOnFace(const Face& face, const Vec3& centre, double radius, WallContact& contact) const {
+bool Surface::closestOnFace(const Face& face, const Vec3& centre, double radius, bool surely, WallContact& contact) const {
   const double height = face.plane.signedDistance(centre);
   if (height >= radius) return false;
   if (face.unbounded) {
     contact.normal = face.plane.normal;
     contact.distance = height;
   } else {
-    if (height <= -radius || !face.outline.contains(face.project(centre))) return false;
+    if (height <= -radius || !(surely || face.outline.contains(face.project(centre)))) return false;
     contact.normal = height >= 0 ? face.plane.normal : Vec3(-face.plane.normal);
     contact.distance = std::abs(height);
   }

@@ -55,12 +55,25 @@ class Surface {
   /// Replaces `features` by those with a point nearer than `reach` to `centre` (m), in ascending order.
   void candidates(const Vec3& centre, double reach, std::vector<std::uint32_t>& features) const;
 
+  /// May a point of the wall lie in the box (m)? No is certain.
+  bool mayMeet(const Box& box) const;
+
   /// Where the distance from the centre to the wall is locally least and below `radius`, with all weights 1, in ascending order of
-  /// feature. `candidates`: ascending, holding at least every feature nearer than `radius`. No allocation.
+  /// feature. `candidates`: ascending but for the mark `surelyOver`, holding at least every feature nearer than `radius` that is not refused. No
+  /// allocation.
   void nearestPoints(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates, WallContacts& contacts) const;
 
   /// The contacts of a sphere: its nearest points with the load shared between them (shareLoad).
   void contacts(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates, WallContacts& contacts) const;
+
+  /// m: how far the centre of a sphere may go before the feature can be one of its contacts, as far as that is easily said; 0 when it may be one
+  /// now. A feature is out of question where it is farther than `radius`, but also where others on it come nearer.
+  double refusal(std::uint32_t feature, const Vec3& centre, double radius) const;
+
+  /// m: how far the centre may go before its foot can leave the outline of a face; 0 when it is outside.
+  double stayOver(std::uint32_t face, const Vec3& centre, double farthest) const;
+  /// Marks a face among candidates whose outline the foot is known to be in.
+  static constexpr std::uint32_t surelyOver = std::uint32_t{1} << 31;
 
   /// m: how far the centre of a sphere may go before it can touch one of the candidates; 0 when it may touch now.
   double clearance(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates) const;
@@ -84,7 +97,7 @@ class Surface {
   Surface() = default;
 
   double squaredDistanceTo(std::uint32_t feature, const Vec3& point, double reach) const;
-  bool closestOnFace(const Face& face, const Vec3& centre, double radius, WallContact& contact) const;
+  bool closestOnFace(const Face& face, const Vec3& centre, double radius, bool surely, WallContact& contact) const;
   bool closestOnEdge(const Edge& edge, const Vec3& centre, double radius, WallContact& contact) const;
   bool closestOnCorner(const Corner& corner, const Vec3& centre, double radius, WallContact& contact) const;
   void insert(const WallContact& contact, WallContacts& contacts) const;

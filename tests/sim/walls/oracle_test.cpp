@@ -122,5 +122,50 @@ TEST(Oracle, CandidatesAreExactlyTheFeaturesWithinReach) {
   }
 }
 
+// What a surface refuses stays no contact for as long as it says.
+TEST(Oracle, RefusalsHoldAsFarAsTheySay) {
+  Random random(8, 12);
+  TriangleMesh soup;
+  for (int t = 0; t < 12; ++t) {
+    const Vec3 a = randomIn(random, Vec3::Zero(), Vec3::Ones());
+    addTriangle(soup, a, a + 0.4 * randomDirection(random), a + 0.4 * randomDirection(random));
+  }
+  const double radius = 0.1;
+  int held = 0, touched = 0, stayed = 0;
+  std::vector<std::uint32_t> near;
+  for (const TriangleMesh& mesh : {soup, makeBox({0, 0, 0}, {1, 0.6, 0.3}), makeCone(20, 0.1, 0, 0.5, 0.6)}) {
+    const Surface surface(mesh);
+    for (int i = 0; i < 20000; ++i) {
+      const Vec3 centre = randomIn(random, Vec3::Constant(-0.6), Vec3::Constant(1.1));
+      surface.candidates(centre, 2 * radius, near);
+      if (near.empty()) continue;
+      const std::uint32_t feature = near[static_cast<std::size_t>(random.uniform() * static_cast<double>(near.size()))];
+      const double room = surface.refusal(feature, centre, radius);
+      WallContacts contacts;
+      surface.nearestPoints(centre, radius, {&feature, 1}, contacts);
+      touched += !contacts.empty();
+      ASSERT_TRUE(contacts.empty() || room == 0);
+      if (surface.isFace(feature)) {
+        const double over = surface.stayOver(feature, centre, radius);
+        const Vec3 aside = centre + random.uniform() * over * randomDirection(random);
+        const std::uint32_t marked = feature | Surface::surelyOver;
+        WallContacts asked, known;
+        surface.nearestPoints(aside, radius, {&feature, 1}, asked);
+        surface.nearestPoints(aside, radius, {&marked, 1}, known);
+        ASSERT_TRUE(over == 0 || asked.size() == known.size());
+        stayed += over > 0 && !asked.empty();
+      }
+      if (room == 0) continue;
+      const Vec3 there = centre + random.uniform(0.5, 1) * std::min(room, 0.5) * randomDirection(random);
+      surface.nearestPoints(there, radius, {&feature, 1}, contacts);
+      ASSERT_TRUE(contacts.empty()) << "feature " << feature << " of " << mesh.name << ", room " << room;
+      ++held;
+    }
+  }
+  EXPECT_GT(held, 3000);
+  EXPECT_GT(touched, 300);
+  EXPECT_GT(stayed, 100);
+}
+
 }  // namespace
 }  // namespace tsubu::sim::test

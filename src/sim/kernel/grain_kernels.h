@@ -1,0 +1,53 @@
+#pragma once
+// The inner loops that know no law: moving grains, and finding the pairs that are near. Chosen with the others (kernels.h).
+
+#include <cstdint>
+#include <limits>
+
+#include "sim/grain_rows.h"
+#include "sim/scheme.h"
+
+namespace tsubu::sim {
+
+/// The columns of the state that moving grains reads and writes; null where the scheme or the scene has none.
+struct MoveContext {
+  GrainRow* rows;
+  ForceRow* forces;
+  HalfStepRow* half;
+  PlaceRow* previous;
+  AngleRow* turned;
+  const double* perSkin2;  ///< 1/m²
+  V3 gravity;  ///< m/s²
+  double dt;   ///< s
+};
+
+/// What a pass over grains finds.
+struct Motion {
+  double fastest2 = 0;  ///< (m/s)²: the largest squared speed
+  double travel2 = 0;   ///< largest (distance moved in the step / radius)²; NaN counts as infinite
+  double haste2 = 0;    ///< 1/s²: largest (speed / skin)²
+
+  /// A grain goes with the square of this speed; `scale`: Δt/r.
+  TSUBU_INLINE void add(double speed2, double scale, double perSkin2) {
+    const double way2 = speed2 * scale * scale, hasteOfGrain2 = speed2 * perSkin2;
+    haste2 = hasteOfGrain2 > haste2 ? hasteOfGrain2 : haste2;
+    fastest2 = speed2 > fastest2 ? speed2 : fastest2;
+    if (!(way2 <= travel2)) travel2 = way2 == way2 ? way2 : std::numeric_limits<double>::infinity();
+  }
+};
+
+/// Moves grains [first, last) by one step (docs/physics.md, I1–I6) and clears their forces.
+using MoveKernel = Motion (*)(const MoveContext&, std::int32_t first, std::int32_t last);
+
+/// Which of `count` pairs are nearer than the sum of their radii and this share of their skins (m): their places, in order. `kept` has room
+/// for `count` rounded up to a multiple of four. Returns how many.
+using NearKernel = std::int64_t (*)(const GrainRow* rows, const double* skins, double share, const std::int32_t* i, const std::int32_t* j,
+                                    std::int64_t count, std::int32_t* kept);
+
+/// The loops for one instruction set.
+struct GrainKernels {
+  MoveKernel (*move)(Integrator scheme, bool turns);  ///< all but Runge–Kutta
+  NearKernel nearPairs;
+};
+
+}  // namespace tsubu::sim
