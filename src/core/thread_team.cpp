@@ -21,7 +21,7 @@ inline void waitALittle(int looks) {
 }
 }  // namespace
 
-ThreadTeam::ThreadTeam(int threads) {
+ThreadTeam::ThreadTeam(int threads) : shares_(static_cast<std::size_t>(threads)) {
   for (int thread = 1; thread < threads; ++thread) workers_.emplace_back([this, thread] { work(thread); });
 }
 
@@ -41,8 +41,12 @@ void ThreadTeam::run(int tasks, const std::function<void(int, int)>& task) {
     return;
   }
   task_ = &task;
-  tasks_ = tasks;
-  next_ = 0;
+  for (int thread = 0; thread < threads(); ++thread) {
+    const auto first = [&](int share) { return static_cast<int>(static_cast<std::int64_t>(tasks) * share / threads()); };
+    Share& share = shares_[static_cast<std::size_t>(thread)];
+    share.next = first(thread);
+    share.end = first(thread + 1);
+  }
   busy_ = static_cast<int>(workers_.size());
   {
     const std::lock_guard lock(mutex_);
@@ -55,12 +59,15 @@ void ThreadTeam::run(int tasks, const std::function<void(int, int)>& task) {
 }
 
 void ThreadTeam::takeTasks(int thread) {
-  for (int k = next_.fetch_add(1); k < tasks_; k = next_.fetch_add(1)) {
-    try {
-      (*task_)(k, thread);
-    } catch (...) {
-      const std::lock_guard lock(mutex_);
-      if (!failure_) failure_ = std::current_exception();
+  for (int n = 0; n < threads(); ++n) {
+    Share& share = shares_[static_cast<std::size_t>((thread + n) % threads())];
+    for (int k = share.next.fetch_add(1); k < share.end; k = share.next.fetch_add(1)) {
+      try {
+        (*task_)(k, thread);
+      } catch (...) {
+        const std::lock_guard lock(mutex_);
+        if (!failure_) failure_ = std::current_exception();
+      }
     }
   }
 }
