@@ -84,7 +84,7 @@ struct Watch {
   bool stop = true;           ///< otherwise warn once for each kind and go on
 };
 
-/// What is computed in which numbers (docs/decisions/0011-precision.md). `mixed`: contacts between grains in single precision, from differences
+/// What is computed in which numbers (docs/decisions/0012-precision.md). `mixed`: contacts between grains in single precision, from differences
 /// of positions and velocities taken in double, and all else in double.
 enum class Precision { full, mixed };
 

@@ -1,6 +1,7 @@
 #include "sim/simulation.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -192,8 +193,7 @@ bool Simulation::Impl::contactsActAlone() const {
 // Forces of all contacts, with what they put into the accounts (`last`). A slab writes to itself and the next one, so an odd slab waits for
 // its even neighbours: whatever the threads do, a grain gets the forces of its even slab first. After an odd slab it and the next one are
 // complete, and nobody reads them any more: where contacts act alone, a step moves them then.
-// A thread takes a block of slabs and does an odd one as soon as it may, while its neighbours lie in the cache; those between two blocks are
-// left for the end.
+// A thread takes a block of slabs and does an odd one as soon as it may, while its neighbours lie in the cache.
 void Simulation::Impl::evaluateContacts(For whom) {
   if (model.precision == Precision::mixed)
     evaluateContactsIn<float>(whom, singleStages);
@@ -233,18 +233,25 @@ void Simulation::Impl::evaluateContactsIn(For whom, std::vector<StageIn<Real>>& 
     evaluate(odd, thread);
     for (int slab = odd; moved && slab < std::min(odd + 2, count); ++slab) moveSlab(slab, thread);
   };
-  const int blocks = std::clamp(blocksPerThread * team.threads(), 1, (count + 1) / 2), pairsOfSlabs = ((count + 1) / 2 + blocks - 1) / blocks;
-  const auto firstOf = [&](int block) { return std::min(2 * pairsOfSlabs * block, count); };
+  const int evens = (count + 1) / 2, blocks = std::min(blocksPerThread * team.threads(), evens);
+  const auto firstOf = [&](int block) { return std::min(2 * (evens * block / blocks), count); };
+  // The odd slab at the end of a block waits for the first slab of the next one: whoever comes last does it.
+  std::vector<std::atomic<int>> arrived(static_cast<std::size_t>(blocks));
+  const auto arriveAtEndOf = [&](int block, int thread) {
+    if (arrived[static_cast<std::size_t>(block)].fetch_add(1) == 1) finish(firstOf(block + 1) - 1, thread);
+  };
   team.run(blocks, [&](int block, int thread) {
-    for (int even = firstOf(block); even < firstOf(block + 1); even += 2) {
+    const int first = firstOf(block), end = firstOf(block + 1);
+    for (int even = first; even < end; even += 2) {
       evaluate(even, thread);
-      if (even > firstOf(block)) finish(even - 1, thread);
+      if (even > first) finish(even - 1, thread);
+      if (even == first && block > 0) arriveAtEndOf(block - 1, thread);
     }
     if (moved && block == 0) moveSlab(0, thread);
-  });
-  team.run(blocks, [&](int block, int thread) {
-    const int end = firstOf(block + 1) - 1;
-    if (end % 2 == 1 && end > firstOf(block)) finish(end, thread);
+    if (end < count)
+      arriveAtEndOf(block, thread);
+    else if (end % 2 == 0)
+      finish(end - 1, thread);
   });
 }
 
@@ -450,6 +457,8 @@ void Simulation::Impl::rebuildLists() {
   }
   grid.build(state.rows, 0, state.skin);
   pairs.build(state, slabs, grid, innerShare, newPlace, team, periods);
+  // From here on only those look into the grid who arrive or are swept; it is as large as what is made next.
+  if (model.streams.empty() && !model.continuous) grid = CellGrid();
   drift.restart(pairs.slabsInLists(slabs));
   state.clearForces();
   // What has been swept has not come by the straight way, and not through a wall.

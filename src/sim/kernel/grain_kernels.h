@@ -29,9 +29,12 @@ struct Motion {
 
   /// A grain goes with the square of this speed; `scale`: Δt/r.
   TSUBU_INLINE void add(double speed2, double scale, double perSkin2) {
-    const double way2 = speed2 * scale * scale, hasteOfGrain2 = speed2 * perSkin2;
+    const double hasteOfGrain2 = speed2 * perSkin2;
     haste2 = hasteOfGrain2 > haste2 ? hasteOfGrain2 : haste2;
     fastest2 = speed2 > fastest2 ? speed2 : fastest2;
+    addTravel(speed2 * scale * scale);
+  }
+  TSUBU_INLINE void addTravel(double way2) {
     if (!(way2 <= travel2)) travel2 = way2 == way2 ? way2 : std::numeric_limits<double>::infinity();
   }
 };

@@ -12,7 +12,7 @@
 namespace tsubu::sim {
 
 /// Three numbers. Laws are written for any `Real`: double is what a simulation is made of, float what its contacts may be computed in
-/// (docs/decisions/0011-precision.md).
+/// (docs/decisions/0012-precision.md).
 template <class Real>
 struct V3In {
   Real x, y, z;
