@@ -187,6 +187,7 @@ std::vector<Row> rows() {
   rub("sizes of grains", [](Model& m) {
     for (std::size_t g = 0; g < m.grains.size(); ++g) m.grains[g].radius *= 1 + 0.02 * (static_cast<double>(g * 2654435761U % 11) - 5) / 5;
   });
+  rub("mixed precision", [](Model& m) { m.precision = Precision::mixed; });
   rub("continuous collisions", [](Model& m) { m.continuous = true; });
   return all;
 }

@@ -96,14 +96,14 @@ class Tsubu:
         return subprocess.run(command, cwd=directory, capture_output=True).returncode == 0
 
     def prepare(self, directory, grains, work):
-        """Also takes the energies from a run of its own: the measured ones keep no ledger, as the peers keep none."""
         bed.write_tsubu(directory, grains, work)
-        self.simulate(directory, 1, "--set", "simulation.ledger=true")
-        energies = {}
-        for row in self.ledger(directory):
-            step = round(float(row["time_s"]) / work.time_step)
-            energies[step] = float(row["kinetic_bulk_J"]) + float(row["kinetic_fluctuation_J"])
-        self.energies[directory] = energies
+        self.energies[directory] = self.energies_of(directory, work)
+
+    def energies_of(self, directory, work, *options):
+        """By step, from a run of its own: the measured ones keep no ledger, as the peers keep none."""
+        self.simulate(directory, 1, "--set", "simulation.ledger=true", *options)
+        return {round(float(row["time_s"]) / work.time_step): float(row["kinetic_bulk_J"]) + float(row["kinetic_fluctuation_J"])
+                for row in self.ledger(directory)}
 
     @staticmethod
     def ledger(directory):
@@ -115,8 +115,10 @@ class Tsubu:
                     directory)
         return done, json.loads((directory / "tsubu" / "run.json").read_text())
 
-    def run(self, directory, cores, isa="", frames=False):
-        done, report = self.simulate(directory, cores, *(["--isa", isa] if isa else []), frames=frames)
+    MIXED = ("--set", "simulation.precision=mixed")
+
+    def run(self, directory, cores, isa="", frames=False, mixed=False):
+        done, report = self.simulate(directory, cores, *(["--isa", isa] if isa else []), *(self.MIXED if mixed else ()), frames=frames)
         contacts = [float(row["contacts"]) for row in self.ledger(directory)]
         return Measurement(report["simulation_time"], self.energies.get(directory, {}), report["state_hash"], sum(contacts) / len(contacts),
                            done.peak_bytes, report["wall_time"])

@@ -17,12 +17,12 @@ class Series:
     cores: int
     grains: int
     directory: Path
-    options: dict = field(default_factory=dict)  # of tsubu: isa, frames
+    options: dict = field(default_factory=dict)  # of tsubu: isa, frames, mixed
     runs: list = field(default_factory=list)
 
     @property
     def name(self):
-        return " ".join([self.code.name, *filter(None, [self.options.get("isa")])])
+        return " ".join([self.code.name, *filter(None, [self.options.get("isa"), "mixed" if self.options.get("mixed") else ""])])
 
     def median(self, of):
         return statistics.median(getattr(run, of) for run in self.runs)

@@ -80,7 +80,7 @@ class Run(unittest.TestCase):
         self.assertEqual([row["against"] for row in self.rows("table")], ["1 core"])
 
     def test_cases_of_one_code(self):
-        for case in ("frictionless", "growth", "memory", "frames"):
+        for case in ("frictionless", "growth", "memory", "frames", "mixed"):
             done = self.run_peers("--case", case)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         cases = [row["case"] for row in self.rows("table")]
