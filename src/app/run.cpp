@@ -111,6 +111,8 @@ void Run::openFilm(scene::Built& built, const scene::Scene& scene) {
   parts.text["Title"] = scene.title;
   parts.text["scene"] = options_.scene;
   parts.text["scene text"] = io::readTextFile(options_.scene, "scene file");
+  // What the simulation leaves of the cores, less the thread that draws.
+  render::setDrawingHelpers(std::max(0, static_cast<int>(std::thread::hardware_concurrency()) - report_.threads - 1));
   film_ = std::make_unique<Film>(std::move(parts));
 }
 

@@ -1,7 +1,9 @@
 #include "render/renderer.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <map>
+#include <string>
 #include <tuple>
 
 #include "core/error.h"
@@ -71,6 +73,8 @@ class Renderer::Impl {
 
 Renderer::Renderer(Style style, std::vector<VisibleWall> walls, Box bounds)
     : impl_(std::make_unique<Impl>(std::move(style), std::move(walls), bounds)) {}
+void setDrawingHelpers(int threads) { setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0); }
+
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;

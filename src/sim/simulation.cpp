@@ -1,7 +1,6 @@
 #include "sim/simulation.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "sim/fields/magnet_pass.h"
 #include "sim/laws/catalogue.h"
 #include "sim/neighbours/skins.h"
+#include "sim/neighbours/slab_order.h"
 #include "sim/pair_constants.h"
 #include "sim/simulation_impl.h"
 #include "sim/time_step.h"
@@ -24,9 +24,6 @@ constexpr std::uint64_t watchEvery = 64, watchEveryWithLedger = 16;
 
 // Grains that a cache of some 16 MB holds: asking for rows ahead of time pays beyond, and costs a little below.
 constexpr std::size_t fitsCache = 60'000;
-
-// Few, so that what a block works on stays with its thread; enough that no thread waits long for another.
-constexpr int blocksPerThread = 4;
 
 // Neighbour lists: the steps that a skin is to last, and its bounds in terms of the smallest radius. Magnets reach farther by it, and lists of
 // them are longer. Then the share of it that belongs to the inner lists, and the bounds of that in terms of the radius.
@@ -190,10 +187,8 @@ bool Simulation::Impl::contactsActAlone() const {
   return passes.empty() && moving.empty() && !rungeKutta && !pairs.hasImages() && firstArrival == state.nextId;
 }
 
-// Forces of all contacts, with what they put into the accounts (`last`). A slab writes to itself and the next one, so an odd slab waits for
-// its even neighbours: whatever the threads do, a grain gets the forces of its even slab first. After an odd slab it and the next one are
-// complete, and nobody reads them any more: where contacts act alone, a step moves them then.
-// A thread takes a block of slabs and does an odd one as soon as it may, while its neighbours lie in the cache.
+// Forces of all contacts, with what they put into the accounts (`last`). Where contacts act alone, a step moves a slab as soon as its forces
+// are complete, while it lies in the cache.
 void Simulation::Impl::evaluateContacts(For whom) {
   if (model.precision == Precision::mixed)
     evaluateContactsIn<float>(whom, singleStages);
@@ -229,29 +224,8 @@ void Simulation::Impl::evaluateContactsIn(For whom, std::vector<StageIn<Real>>& 
   };
   moved = whom == For::step && contactsActAlone();
   motions.assign(static_cast<std::size_t>(count), Motion{});
-  const auto finish = [&](int odd, int thread) {
-    evaluate(odd, thread);
-    for (int slab = odd; moved && slab < std::min(odd + 2, count); ++slab) moveSlab(slab, thread);
-  };
-  const int evens = (count + 1) / 2, blocks = std::min(blocksPerThread * team.threads(), evens);
-  const auto firstOf = [&](int block) { return std::min(2 * (evens * block / blocks), count); };
-  // The odd slab at the end of a block waits for the first slab of the next one: whoever comes last does it.
-  std::vector<std::atomic<int>> arrived(static_cast<std::size_t>(blocks));
-  const auto arriveAtEndOf = [&](int block, int thread) {
-    if (arrived[static_cast<std::size_t>(block)].fetch_add(1) == 1) finish(firstOf(block + 1) - 1, thread);
-  };
-  team.run(blocks, [&](int block, int thread) {
-    const int first = firstOf(block), end = firstOf(block + 1);
-    for (int even = first; even < end; even += 2) {
-      evaluate(even, thread);
-      if (even > first) finish(even - 1, thread);
-      if (even == first && block > 0) arriveAtEndOf(block - 1, thread);
-    }
-    if (moved && block == 0) moveSlab(0, thread);
-    if (end < count)
-      arriveAtEndOf(block, thread);
-    else if (end % 2 == 0)
-      finish(end - 1, thread);
+  overSlabs(count, team, evaluate, [&](int slab, int thread) {
+    if (moved) moveSlab(slab, thread);
   });
 }
 
