@@ -7,7 +7,7 @@ namespace tsubu::sim {
 
 namespace {
 
-constexpr int mostSlabs = 64;        // enough for every core, few enough for full slabs
+constexpr int mostSlabs = 256;       // three of them in the cache of a core, as far as that goes; few enough for full slabs
 constexpr double mostCells = 4096;   // per axis, within a slab
 
 struct Keyed {
