@@ -69,7 +69,7 @@ struct MotionLanes {
     const D4 way2 = speed2 * scale * scale, hasteOfGrain2 = speed2 * perSkin2;
     haste2 = hasteOfGrain2 > haste2 ? hasteOfGrain2 : haste2;
     fastest2 = speed2 > fastest2 ? speed2 : fastest2;
-    travel2 = (way2 <= travel2) | (travel2 != travel2) ? travel2 : way2;
+    travel2 = ((way2 <= travel2) | (travel2 != travel2)) ? travel2 : way2;
   }
   TSUBU_INLINE void addTo(Motion& motion) const {
     for (int k = 0; k < 4; ++k) {
