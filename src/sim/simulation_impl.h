@@ -1,6 +1,6 @@
 #pragma once
-// The inside of a Simulation, shared by the files that implement it: the step (simulation.cpp), who comes and goes (population.cpp)
-// and what can be seen (observe.cpp).
+// The inside of a Simulation, shared by the files that implement it: the step (simulation.cpp), its neighbour lists
+// (refresh_lists.cpp), who comes and goes (population.cpp) and what can be seen (observe.cpp).
 
 #include <array>
 #include <limits>
