@@ -19,7 +19,7 @@ void describeSimulation(Form& form, Simulation& s) {
                                            {"central_differences", "Positions from the last two (Störmer): the path of leapfrog, with more rounding."},
                                            {"rk4", "Runge–Kutta: fourth order where contacts are smooth, four evaluations per step."}};
   static constexpr Choice precisions[] = {{"double", "Everything in double precision."},
-                                          {"mixed", "Contacts between grains in single precision, from differences taken in double; all else in double."}};
+                                          {"mixed", "Contacts between grains in single precision, from differences of places in double; all else in double."}};
   static constexpr Choice limits[] = {{"packing", "What a packing of the smallest grains bears, known before any contact is; one step for the whole run."},
                                       {"spectral", "What the live network of contacts and bonds bears, from its stiffest mode; steps follow it through the run."}};
   static constexpr Choice axes[] = {{"x", {}}, {"y", {}}, {"z", {}}};

@@ -59,6 +59,7 @@ void Simulation::Impl::finishChange() {
     turned.x += angle * half.sx, turned.y += angle * half.sy, turned.z += angle * half.sz;
     row.sx = half.sx + ahead * (row.sx - half.sx), row.sy = half.sy + ahead * (row.sy - half.sy), row.sz = half.sz + ahead * (row.sz - half.sz);
   }
+  state.allToSingle();
   since = time();
   stepsSince = steps;
   model.timeStep = nextTimeStep;

@@ -27,6 +27,19 @@ struct alignas(64) ForceRow {
   double qx, qy, qz, unused1;
 };
 
+/// Mixed precision: what contacts between grains read, one cache line. Differences of places are taken in double.
+struct alignas(64) SingleRow {
+  double x, y, z, radius;
+  float vx, vy, vz, inverseMass;
+  float sx, sy, sz, inverseRadius;
+};
+
+/// Mixed precision: what contacts between grains do to a grain.
+struct alignas(32) SingleForceRow {
+  float fx, fy, fz, unused0;
+  float qx, qy, qz, unused1;
+};
+
 /// Velocities half a step before the positions: velocity Verlet's own (docs/physics.md, I2).
 struct alignas(64) HalfStepRow {
   double vx, vy, vz, unused0;

@@ -1,5 +1,7 @@
 #include "sim/integrate.h"
 
+#include <algorithm>
+
 namespace tsubu::sim {
 
 namespace {
@@ -8,33 +10,19 @@ V3 v3(const Vec3& a) { return {a.x(), a.y(), a.z()}; }
 
 }  // namespace
 
-Quat rotationBy(const Vec3& angle) {
-  const double a2 = 0.25 * angle.squaredNorm();  // (half the angle)²
-  if (a2 < 0.01) {
-    // Series of cos a and sin a / a, exact to rounding here; no library function, the same bits everywhere.
-    const double c = 1 - a2 / 2 * (1 - a2 / 12 * (1 - a2 / 30 * (1 - a2 / 56 * (1 - a2 / 90))));
-    const double s = 1 - a2 / 6 * (1 - a2 / 20 * (1 - a2 / 42 * (1 - a2 / 72 * (1 - a2 / 110))));
-    const Vec3 v = 0.5 * s * angle;
-    return {c, v.x(), v.y(), v.z()};
-  }
-  // Larger angles by repeated squaring.
-  const Quat half = rotationBy(0.5 * angle);
-  return half * half;
-}
-
 Quat orientationNow(const State& state, std::size_t grain) {
-  const AngleRow& angle = state.turned[grain];
-  return (rotationBy(Vec3(angle.x, angle.y, angle.z)) * state.orientation[grain]).normalized();
+  Quat now = state.orientation[grain];
+  kernels().grains->turn(now.coeffs().data(), &state.turned[grain], 1);
+  return now;
 }
 
-Motion integrate(State& state, std::int32_t first, std::int32_t last, const Vec3& gravity, double dt, bool turn) {
-  const MoveContext context{state.rows.data(),     state.forces.data(), state.half.data(), state.previous.data(),
-                            state.turned.data(), state.perSkin2.data(), v3(gravity), dt};
-  const Motion motion = kernels().grains->move(state.integrator, state.turns)(context, first, last);
-  for (std::int32_t grain = first; turn && state.turns && grain < last; ++grain) {
-    const auto k = static_cast<std::size_t>(grain);
-    state.orientation[k] = orientationNow(state, k);
-    state.turned[k] = {};
+Motion integrate(State& state, std::int32_t first, std::int32_t last, const Vec3& gravity, double dt, bool turn, bool bySingle) {
+  const MoveContext context{state.rows.data(),     state.forces.data(), state.single.data(),   state.singleForces.data(), state.half.data(),
+                            state.previous.data(), state.turned.data(), state.perSkin2.data(), v3(gravity),               dt};
+  const Motion motion = kernels().grains->move(state.integrator, {state.turns, state.mixed, bySingle})(context, first, last);
+  if (turn && state.turns && first < last) {
+    kernels().grains->turn(state.orientation[static_cast<std::size_t>(first)].coeffs().data(), &state.turned[static_cast<std::size_t>(first)], last - first);
+    std::fill(state.turned.begin() + first, state.turned.begin() + last, AngleRow{});
   }
   return motion;
 }
@@ -54,6 +42,7 @@ void startHalfSteps(State& state, std::uint32_t firstId, const Vec3& gravity, do
     }
     row.vx = u.x, row.vy = u.y, row.vz = u.z;
     row.sx = w.x, row.sy = w.y, row.sz = w.z;
+    if (state.mixed) state.toSingle(k);
     if (state.integrator == Integrator::centralDifferences) state.previous[k] = {row.x - dt * u.x, row.y - dt * u.y, row.z - dt * u.z, 0};
   }
 }

@@ -34,8 +34,9 @@ TSUBU_INLINE Acceleration accelerationOf(const GrainRow& row, const ForceRow& fo
 /// Steps from one update of the orientations to the next. Fixed, so that looking at them changes nothing.
 inline constexpr std::uint64_t turnEvery = 32;
 
-/// Moves grains [first, last) by one step and clears their forces. `turn`: also bring their orientations up to date.
-Motion integrate(State& state, std::int32_t first, std::int32_t last, const Vec3& gravity, double dt, bool turn);
+/// Moves grains [first, last) by one step and clears their forces. `turn`: also bring their orientations up to date. `bySingle`: with mixed
+/// precision, forces have not been folded (State::foldSingleForces).
+Motion integrate(State& state, std::int32_t first, std::int32_t last, const Vec3& gravity, double dt, bool turn, bool bySingle = false);
 
 /// What schemes with half steps start with, for grains from this id on: the present forces take velocities back by half a step.
 void startHalfSteps(State& state, std::uint32_t firstId, const Vec3& gravity, double dt);
@@ -45,9 +46,6 @@ struct Velocities {
   Vec3 v, s;
 };
 Velocities velocitiesNow(const State& state, std::size_t grain, const Vec3& gravity, double dt);
-
-/// The rotation by the angle |a| (rad) about a.
-Quat rotationBy(const Vec3& angle);
 
 /// Orientation of the present instant.
 Quat orientationNow(const State& state, std::size_t grain);

@@ -85,7 +85,7 @@ struct Watch {
 };
 
 /// What is computed in which numbers (docs/decisions/0012-precision.md). `mixed`: contacts between grains in single precision, from differences
-/// of positions and velocities taken in double, and all else in double.
+/// of positions taken in double, and all else in double.
 enum class Precision { full, mixed };
 
 struct Model {

@@ -172,9 +172,7 @@ void Simulation::Impl::visitContacts(Visit&& visit) const {
     c.inverseSpinInertia = 5 / (mass * radius * radius);
     return c;
   };
-  const auto remember = [&](const double* memory, std::size_t stride, SeenContact& seen) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(traits.stateSize); ++k) seen.memory[k] = memory[k * stride];
-  };
+  const auto components = static_cast<std::size_t>(traits.stateSize);
   for (const SlabPairs& slab : pairs.slabs()) {
     for (std::size_t k = 0; k < slab.i.size(); ++k) {
       const auto i = static_cast<std::size_t>(slab.i[k]), j = static_cast<std::size_t>(slab.j[k]);
@@ -183,7 +181,7 @@ void Simulation::Impl::visitContacts(Visit&& visit) const {
                                  1 / (a.inverseMass + b.inverseMass), 1 / (a.inverseRadius + b.inverseRadius)),
                        constants.of(state.material[i] * n + state.material[j]), 1, {}};
       if (!(seen.contact.overlap > 0)) continue;
-      remember(slab.memory.data() + k, slab.stride, seen);
+      for (std::size_t c = 0; c < components; ++c) seen.memory[c] = slab.memory.at(c, k);
       visit(seen);
     }
   }
@@ -203,7 +201,7 @@ void Simulation::Impl::visitContacts(Visit&& visit) const {
                                          Vec3(row.vx, row.vy, row.vz) - velocity, mass, row.radius),
                          constants.of(state.material[g] * n + model.walls[group.wall].material), contact.weight, {}};
         const auto candidate = std::lower_bound(features.begin(), features.end(), contact.feature) - features.begin();
-        remember(slab.memoryOf(group.first + static_cast<std::int32_t>(candidate)), 1, seen);
+        std::copy_n(slab.memoryOf(group.first + static_cast<std::int32_t>(candidate)), components, seen.memory);
         visit(seen);
       }
     }
@@ -224,9 +222,7 @@ double Simulation::Impl::contactEnergyOf(std::size_t i, std::size_t j) const {
   contact.effectiveRadius = 1 / (a.inverseRadius + b.inverseRadius);
   contact.inverseSpinInertia = 5 / (contact.effectiveMass * contact.effectiveRadius * contact.effectiveRadius);
   double memory[mostMemory] = {};
-  std::size_t stride = 0;
-  const double* const kept = pairs.memoryOf(slabs, static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), stride);
-  for (std::size_t k = 0; kept && k < static_cast<std::size_t>(traits.stateSize); ++k) memory[k] = kept[k * stride];
+  pairs.copyMemory(slabs, static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), memory);
   const LawFunctions& functions = lawFunctions(law);
   const double* const pair = constants.of(state.material[i] * model.materials.size() + state.material[j]);
   const double springs = functions.stored(pair, contact, stepOf(), memory);
@@ -303,7 +299,7 @@ std::uint64_t Simulation::Impl::contactHash() const {
       hash.add(std::max(a, b));
       bool any = false;
       for (std::size_t component = 0; component < c; ++component) {
-        const double value = slab.memory[component * slab.stride + k];
+        const double value = slab.memory.at(component, k);
         any = any || value != 0;
         hash.add(value == 0 ? 0.0 : (traits.odd >> component & 1U) ? sign * value : value);
       }

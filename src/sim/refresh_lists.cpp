@@ -128,6 +128,7 @@ void Simulation::Impl::rebuildLists() {
   if (model.streams.empty() && !model.continuous) grid = CellGrid();
   drift.restart(pairs.slabsInLists(slabs));
   state.clearForces();
+  state.allToSingle();
   // What has been swept has not come by the straight way, and not through a wall.
   walls.build(state, slabs, wallSkin, steps > 0 && !model.continuous ? model.timeStep : 0.0, newPlace, team);
   state.reference.resize(state.size());

@@ -19,7 +19,7 @@ void setRow(GrainRow& row, V3 x, V3 v, V3 s) {
 
 void RungeKutta::keepMemory(const PairLists& pairs, const WallPass& walls) {
   pairs_.resize(pairs.slabs().size());
-  for (std::size_t s = 0; s < pairs_.size(); ++s) pairs_[s].start = pairs.slabs()[s].memory;
+  for (std::size_t s = 0; s < pairs_.size(); ++s) pairs_[s].start = pairs.slabs()[s].memory.wide();
   wallsBefore_ = walls.slabs();
 }
 
@@ -109,7 +109,7 @@ void RungeKutta::countPair(double share, const State& state, const SlabPairs& sl
                            Springs& sum) const {
   const auto i = static_cast<std::size_t>(slab.i[k]), j = static_cast<std::size_t>(slab.j[k]);
   const GrainRow &a = state.rows[i], &b = state.rows[j];
-  countSprings(share, memory, slab.stride, state.material[i] * model_.materials.size() + state.material[j],
+  countSprings(share, memory, slab.memory.stride(), state.material[i] * model_.materials.size() + state.material[j],
                1 / (a.inverseRadius + b.inverseRadius), a.radius + b.radius - norm(a.position() - b.position()), sum);
 }
 
@@ -125,10 +125,10 @@ void RungeKutta::collectPairs(int stage, const State& state, const SlabPairs& sl
     const Frame frame = frameOf(state.rows[static_cast<std::size_t>(slab.i[k])], state.rows[static_cast<std::size_t>(slab.j[k])]);
     const double b = weight[static_cast<std::size_t>(stage)];
     countPair(stage == 0 ? 1 - b : -b, state, slab, k, memory.in.data() + k, memory.uncounted);
-    countPair(b, state, slab, k, slab.memory.data() + k, memory.uncounted);
+    countPair(b, state, slab, k, slab.memory.columns<double>() + k, memory.uncounted);
     if (stage == 0 && !frame.touching)
-      for (std::size_t at = k; at < memory.start.size(); at += slab.stride) memory.start[at] = memory.in[at] = 0;
-    collectMemory(stage, memory, k, slab.stride, slab.memory.data() + k, slab.stride, frame, dt);
+      for (std::size_t at = k; at < memory.start.size(); at += slab.memory.stride()) memory.start[at] = memory.in[at] = 0;
+    collectMemory(stage, memory, k, slab.memory.stride(), slab.memory.columns<double>() + k, slab.memory.stride(), frame, dt);
   }
 }
 
@@ -221,7 +221,7 @@ void RungeKutta::moveTo(int stage, State& state, const Slabs& slabs, PairLists& 
     }
     for (MemoryStages* memory : {&pairs_[s], &walls_[s]})
       for (std::size_t k = 0; k < memory->in.size(); ++k) memory->in[k] = memory->start[k] + c * memory->rate[k];
-    pairs.slabs()[s].memory = pairs_[s].in;
+    pairs.slabs()[s].memory.wide() = pairs_[s].in;
     walls.slabs()[s].memory = walls_[s].in;
   });
 }
@@ -239,9 +239,9 @@ Motion RungeKutta::finish(State& state, PairLists& pairs, WallPass& walls, doubl
   for (std::size_t s = 0; s < pairs_.size(); ++s) {
     const auto advance = [&](const MemoryStages& memory, std::size_t k) { return memory.start[k] + dt * memory.sum[k]; };
     SlabPairs& listed = pairs.slabs()[s];
-    for (std::size_t k = 0; k < listed.memory.size(); ++k) listed.memory[k] = advance(pairs_[s], k);
+    for (std::size_t k = 0; k < listed.memory.wide().size(); ++k) listed.memory.wide()[k] = advance(pairs_[s], k);
     for (std::size_t k = 0; k < listed.i.size() && stateSize_ > 0; ++k)
-      countPair(-1, state, listed, k, listed.memory.data() + k, pairs_[s].uncounted);
+      countPair(-1, state, listed, k, listed.memory.columns<double>() + k, pairs_[s].uncounted);
     SlabWalls& slab = walls.slabs()[s];
     std::size_t k = 0;
     for (const WallGroup& group : slab.groups) {

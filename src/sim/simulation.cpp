@@ -32,7 +32,7 @@ Simulation::Impl::Impl(Model given, int threads)
       law(lawIndex(model.contact)),
       traits(lawFunctions(law).traits),
       gravity(model.gravity, model.fields.gravity),
-      pairs(traits.stateSize, traits.odd),
+      pairs(traits.stateSize, traits.odd, model.precision == Precision::mixed),
       walls(model.walls, traits),
       moving(wallsUnderLoad(model)),
       passes(makePasses(model)),
@@ -105,6 +105,7 @@ void Simulation::Impl::prepareState() {
   if (model.counters.size() > 32) throw Error(ErrorKind::scene, fmt::format("There are {} counters, more than 32.", model.counters.size()));
   state.integrator = model.integrator;
   state.turns = grainsTurn(model);
+  state.mixed = model.precision == Precision::mixed;
   state.conducts = model.heat;
   if (hasPermanentMagnets(model)) turnInterval = 1;
   state.reserve(model.grains.size());
@@ -117,7 +118,7 @@ void Simulation::Impl::prepareState() {
 }
 
 PassContext Simulation::Impl::context(PairClass pairClass, bool oneClass) {
-  return {state.rows.data(), state.forces.data(), state.material.data(), model.materials.size(),
+  return {state.rows.data(), state.forces.data(), state.single.data(), state.singleForces.data(), state.material.data(), model.materials.size(),
           oneClass ? constants.of(pairClass.first) : constants.values.data(), stepOf(), observed, state.size() > fitsCache};
 }
 
@@ -207,8 +208,8 @@ void Simulation::Impl::evaluateContactsIn(For whom, std::vector<StageIn<Real>>& 
     StageIn<Real>& stage = pairStages[static_cast<std::size_t>(thread)];
     Profile::Lap lap(profile, ProfilePart::pairs, thread);
     PairLists::refreshImages(state, list);
-    const PairRange range{list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.data(), list.stride,
-                          list.touch.empty() ? nullptr : list.touch.data()};
+    const PairRangeIn<Real> range{list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.columns<Real>(),
+                                  list.memory.stride(), list.touch.empty() ? nullptr : list.touch.data()};
     if (noting)
       passNoting(onPairs.kernel, grainsWorld, range, traits.rolls, stage, last[s], acting[s]);
     else
@@ -219,7 +220,11 @@ void Simulation::Impl::evaluateContactsIn(For whom, std::vector<StageIn<Real>>& 
   moved = whom == For::step && contactsActAlone();
   motions.assign(static_cast<std::size_t>(count), Motion{});
   overSlabs(count, team, evaluate, [&](int slab, int thread) {
-    if (moved) moveSlab(slab, thread);
+    if (moved) return moveSlab(slab, thread);
+    if (!state.mixed) return;
+    const SlabPairs& list = pairs.slabs()[static_cast<std::size_t>(slab)];
+    state.foldSingleForces(slabs.begin(slab), slabs.end(slab));
+    if (!list.images.empty()) state.foldSingleForces(list.firstImage, list.firstImage + static_cast<std::int32_t>(list.images.size()));
   });
 }
 
@@ -261,7 +266,7 @@ void Simulation::Impl::loadMovingWalls() {
 void Simulation::Impl::moveSlab(int slab, int thread) {
   const Profile::Lap lap(profile, ProfilePart::motion, thread);
   const bool turn = (steps + 1) % turnInterval == 0;
-  motions[static_cast<std::size_t>(slab)] = integrate(state, slabs.begin(slab), slabs.end(slab), gravity.now(), kickStep(), turn);
+  motions[static_cast<std::size_t>(slab)] = integrate(state, slabs.begin(slab), slabs.end(slab), gravity.now(), kickStep(), turn, state.mixed && moved);
 }
 
 Motion Simulation::Impl::moveBySlabs() {

@@ -63,6 +63,8 @@ void reorderOne(std::vector<T>& items, const std::vector<std::int32_t>& order) {
 void State::reorder(const std::vector<std::int32_t>& order) {
   images = 0;
   forces = std::vector<ForceRow>();
+  single = std::vector<SingleRow>();
+  singleForces = std::vector<SingleForceRow>();
   reference = std::vector<Vec3>();
   reorderOne(rows, order);
   reorderOne(half, order);
@@ -78,6 +80,32 @@ void State::reorder(const std::vector<std::int32_t>& order) {
   reorderOne(skin, order);
 }
 
-void State::clearForces() { forces.assign(rows.size(), ForceRow{}); }
+void State::clearForces() {
+  forces.assign(rows.size(), ForceRow{});
+  if (mixed) singleForces.assign(rows.size(), SingleForceRow{});
+}
+
+void State::toSingle(std::size_t g) {
+  const auto narrow = [](double value) { return static_cast<float>(value); };
+  const GrainRow& row = rows[g];
+  single[g] = {row.x,          row.y,          row.z,          row.radius,     narrow(row.vx),   narrow(row.vy),
+               narrow(row.vz), narrow(row.inverseMass), narrow(row.sx), narrow(row.sy), narrow(row.sz), narrow(row.inverseRadius)};
+}
+
+void State::allToSingle() {
+  if (!mixed) return;
+  single.resize(rows.size());
+  for (std::size_t g = 0; g < rows.size(); ++g) toSingle(g);
+}
+
+void State::foldSingleForces(std::int32_t first, std::int32_t last) {
+  for (auto g = static_cast<std::size_t>(first); g < static_cast<std::size_t>(last); ++g) {
+    ForceRow& sum = forces[g];
+    SingleForceRow& own = singleForces[g];
+    sum.fx += own.fx, sum.fy += own.fy, sum.fz += own.fz;
+    sum.qx += own.qx, sum.qy += own.qy, sum.qz += own.qz;
+    own = SingleForceRow{};
+  }
+}
 
 }  // namespace tsubu::sim

@@ -16,6 +16,8 @@ namespace tsubu::sim {
 struct State {
   std::vector<GrainRow> rows;
   std::vector<ForceRow> forces;
+  std::vector<SingleRow> single;         ///< mixed precision: the rows, as contacts between grains read them
+  std::vector<SingleForceRow> singleForces;  ///< and what these contacts have done, beside `forces`
   std::vector<HalfStepRow> half;         ///< velocity Verlet
   std::vector<PlaceRow> previous;        ///< central differences: positions one step ago
   std::vector<Quat> orientation;         ///< empty unless grains turn; as it was when `turned` was last zero
@@ -30,6 +32,7 @@ struct State {
   std::vector<Vec3> wrap;                ///< what the last rebuild added to the positions; empty unless the domain is periodic
 
   Integrator integrator = Integrator::symplecticEuler;
+  bool mixed = false;  ///< precision
   bool turns = false;
   bool conducts = false;
   std::uint32_t nextId = 0;
@@ -50,6 +53,11 @@ struct State {
   /// Forces and references are let go, to be there again when the lists have been made: in between, the room is needed for these.
   void reorder(const std::vector<std::int32_t>& order);
   void clearForces();
+  /// Brings a single row, or all of them, up to date with the row.
+  void toSingle(std::size_t g);
+  void allToSingle();
+  /// Adds what contacts did in single precision to the forces of rows [first, last), and clears it.
+  void foldSingleForces(std::int32_t first, std::int32_t last);
 };
 
 /// kg

@@ -284,6 +284,7 @@ class Simulation::Impl::Sweep {
     to.x = x.x(), to.y = x.y(), to.z = x.z();
     to.vx += du.x(), to.vy += du.y(), to.vz += du.z();
     to.sx += ds.x(), to.sy += ds.y(), to.sz += ds.z();
+    if (state_.mixed) state_.toSingle(g);
     if (!verlet()) return;
     HalfStepRow& half = state_.half[g];
     half.vx = mover.u.x(), half.vy = mover.u.y(), half.vz = mover.u.z();

@@ -13,9 +13,6 @@ namespace {
 V3 v3(const Vec3& a) { return {a.x(), a.y(), a.z()}; }
 Vec3 centreOf(const GrainRow& row) { return {row.x, row.y, row.z}; }
 
-// A wall that moves under load takes part with its mass; all others cannot be moved.
-double inverseMassOf(const Wall& wall) { return wall.body ? 1 / wall.body->mass : 0; }
-
 // A contact lies at least this share of the radius away from the centre, so that its direction survives the arithmetic.
 constexpr double leastDistance = 1e-9;
 
@@ -196,7 +193,7 @@ void WallPass::addGroup(const State& state, std::int32_t grain, std::size_t wall
   slab.ways.push_back(way);
 }
 
-/// Contacts on the bench, and where each came from. The arrays are filled as far as `count` says.
+/// Contacts that are put on the bench, and where each came from. The arrays are filled as far as `count` says.
 struct WallPass::Batch {
   Batch(WallKernel k, bool withAccounts, Stage& bench, Accounts& sums, std::vector<ActingContact>* notes)
       : kernel(k), account(withAccounts), stage(bench), accounts(sums), acting(notes) {}
@@ -209,9 +206,8 @@ struct WallPass::Batch {
   WallContacts contacts;  // of the group at hand: too large to be made anew for each
   int count = 0;
   std::array<std::int32_t, chunkSize> grain, candidate;
-  std::array<int, chunkSize> load;  // of which wall, as in SlabWalls::loads
   std::array<std::uint16_t, chunkSize> wall;
-  std::array<Vec3, chunkSize> wallVelocity, wallSpin;
+  std::array<WallContactRow, chunkSize> rows;
 };
 
 void WallPass::settle() {
@@ -219,6 +215,8 @@ void WallPass::settle() {
     WallPlace& place = places_[w];
     place.rotation = place.pose.rotation.toRotationMatrix();
     place.turns = place.twist.angularVelocity != Vec3::Zero();
+    // A wall that moves under load takes part with its mass; all others cannot be moved.
+    place.inverseMass = (*walls_)[w].body ? 1 / (*walls_)[w].body->mass : 0;
     place.plane = (*walls_)[w].surface->asPlane();
     if (!place.plane) continue;
     place.plane->normal = place.rotation * place.plane->normal;
@@ -236,17 +234,12 @@ void WallPass::evaluateSlab(int slabNumber, const PassContext& context, WallKern
   Batch batch(kernel, account, stage, accounts, acting);
   std::vector<std::int32_t>& near = near_[static_cast<std::size_t>(slabNumber)];
   for (std::size_t w = 0; w < walls_->size(); ++w) {
-    const bool plane = places_[w].plane.has_value();
-    if (plane)
+    if (places_[w].plane) {
       findNearPlane(slab, w, context, near);
-    else
+      for (const std::int32_t n : near) evaluatePlane(slab, places_[w], slab.groups[static_cast<std::size_t>(n)], slab.ways[static_cast<std::size_t>(n)], context, batch);
+    } else {
       findNearMesh(slab, w, context, near);
-    for (const std::int32_t n : near) {
-      const auto k = static_cast<std::size_t>(n);
-      if (plane)
-        evaluatePlane(slab, slab.groups[k], slab.ways[k], context, batch);
-      else
-        evaluateGroup(slab, slab.groups[k], slab.ways[k], context, batch);
+      for (const std::int32_t n : near) evaluateGroup(slab, slab.groups[static_cast<std::size_t>(n)], slab.ways[static_cast<std::size_t>(n)], context, batch);
     }
   }
   flush(slab, context, batch);
@@ -339,18 +332,19 @@ void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, WallWay& way, co
     const bool touches = next < contacts.size() && contacts[next].feature == candidate.feature;
     if (touches) {
       const WallContact& contact = contacts[next];
-      put(slab, group, c, {place.rotation * contact.normal, contact.distance, place.rotation * contact.point + place.pose.translation, contact.weight},
-          context, batch);
+      const Vec3 normal = place.rotation * contact.normal;
+      note(slab, c, normal, contact.weight);
+      put(slab, place, group, c, std::max(contact.distance, leastDistance * row.radius) * normal,
+          place.turns ? place.twist.at(place.rotation * contact.point + place.pose.translation) : place.twist.velocity, context, batch);
     } else if (candidate.touching) {
-      putEnded(slab, group, c, context, batch);
+      putEnded(slab, place, group, c, context, batch);
     }
   }
 }
 
 // An unbounded plane has one feature and needs no frame of its own; it is awake while it touches.
-void WallPass::evaluatePlane(SlabWalls& slab, WallGroup& group, WallWay& way, const PassContext& context, Batch& batch) {
+void WallPass::evaluatePlane(SlabWalls& slab, const WallPlace& place, WallGroup& group, WallWay& way, const PassContext& context, Batch& batch) {
   const GrainRow& row = context.rows[group.grain];
-  const WallPlace& place = places_[group.wall];
   const Vec3 centre = centreOf(row);
   const double height = place.plane->signedDistance(centre);
   if (height < 0) {
@@ -360,72 +354,47 @@ void WallPass::evaluatePlane(SlabWalls& slab, WallGroup& group, WallWay& way, co
     way.centre = local;
   }
   group.awake = height < row.radius;
-  if (group.awake)
-    put(slab, group, group.first, {place.plane->normal, height, centre - height * place.plane->normal, 1}, context, batch);
-  else if (slab.candidates[static_cast<std::size_t>(group.first)].touching)
-    putEnded(slab, group, group.first, context, batch);
+  const bool touched = slab.candidates[static_cast<std::size_t>(group.first)].touching;
+  if (group.awake) {
+    if (!touched) note(slab, group.first, place.plane->normal, 1);  // a plane keeps its normal
+    put(slab, place, group, group.first, std::max(height, leastDistance * row.radius) * place.plane->normal,
+        place.turns ? place.twist.at(centre - height * place.plane->normal) : place.twist.velocity, context, batch);
+  } else if (touched) {
+    putEnded(slab, place, group, group.first, context, batch);
+  }
 }
 
-// Puts a contact on the bench. `contact`: in the world.
-void WallPass::put(SlabWalls& slab, const WallGroup& group, std::int32_t candidateIndex, const Touch& contact, const PassContext& context,
-                   Batch& batch) {
+void WallPass::note(SlabWalls& slab, std::int32_t candidateIndex, const Vec3& normal, double weight) {
   WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(candidateIndex)];
-  candidate.normal = contact.normal;
+  candidate.normal = normal;
   candidate.touching = true;
-  candidate.weight = contact.weight;
-  const GrainRow& row = context.rows[group.grain];
-  putColumns(slab, group, candidateIndex, std::max(contact.distance, leastDistance * row.radius) * contact.normal, contact.point, contact.weight,
-             context, batch);
+  candidate.weight = weight;
 }
 
 // A contact that has just ended goes through the kernel once more, out of reach, so that its memory is cleared and what its spring held
 // is booked.
-void WallPass::putEnded(SlabWalls& slab, const WallGroup& group, std::int32_t candidateIndex, const PassContext& context, Batch& batch) {
+void WallPass::putEnded(SlabWalls& slab, const WallPlace& place, const WallGroup& group, std::int32_t candidateIndex, const PassContext& context,
+                        Batch& batch) {
   WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(candidateIndex)];
   candidate.touching = false;
   candidate.weight = 1;
   const GrainRow& row = context.rows[group.grain];
-  putColumns(slab, group, candidateIndex, 2 * row.radius * candidate.normal, centreOf(row), 1, context, batch);
+  put(slab, place, group, candidateIndex, 2 * row.radius * candidate.normal, place.turns ? place.twist.at(centreOf(row)) : place.twist.velocity, context,
+      batch);
 }
 
-void WallPass::putColumns(SlabWalls& slab, const WallGroup& group, std::int32_t candidateIndex, const Vec3& d, const Vec3& point, double weight,
-                          const PassContext& context, Batch& batch) {
+// Puts a contact on the bench: from the wall to the centre (m), and the velocity (m/s) of the wall where they touch, in the world.
+void WallPass::put(SlabWalls& slab, const WallPlace& place, const WallGroup& group, std::int32_t candidateIndex, const Vec3& d, const Vec3& velocity,
+                   const PassContext& context, Batch& batch) {
   if (batch.count == chunkSize) flush(slab, context, batch);
   const auto k = static_cast<std::size_t>(batch.count++);
-  const GrainRow& row = context.rows[group.grain];
-  const Wall& wall = (*walls_)[group.wall];
-  const WallPlace& place = places_[group.wall];
-  const Twist& twist = place.twist;
-  const Vec3 velocity = place.turns ? twist.at(point) : twist.velocity;
+  const Vec3& spin = place.twist.angularVelocity;
   batch.grain[k] = group.grain;
-  batch.load[k] = loadOf_[group.wall];
   batch.wall[k] = group.wall;
   batch.candidate[k] = candidateIndex;
-  Stage& s = batch.stage;
-  s.dx[k] = d.x(), s.dy[k] = d.y(), s.dz[k] = d.z();
-  s.radiusSum[k] = row.radius;
-  s.dvx[k] = row.vx - velocity.x(), s.dvy[k] = row.vy - velocity.y(), s.dvz[k] = row.vz - velocity.z();
-  s.inverseMassSum[k] = row.inverseMass + inverseMassOf(wall);
-  if (law_.turns) {
-    const V3 spin = row.inverseRadius * row.surfaceSpin(), wallSpin = v3(twist.angularVelocity), mean = 0.5 * (spin + wallSpin);
-    s.sx[k] = row.sx, s.sy[k] = row.sy, s.sz[k] = row.sz;
-    s.ox[k] = mean.x, s.oy[k] = mean.y, s.oz[k] = mean.z;
-    if (law_.rolls) {
-      const V3 difference = spin - wallSpin;
-      s.rx[k] = difference.x, s.ry[k] = difference.y, s.rz[k] = difference.z;
-      s.inverseInertiaSum[k] = row.inverseMass * row.inverseRadius * row.inverseRadius;
-    }
-  }
-  if (law_.readsRadius) s.inverseRadiusSum[k] = row.inverseRadius;
-  if (batch.account) {
-    batch.wallVelocity[k] = velocity;
-    batch.wallSpin[k] = twist.angularVelocity;
-  }
-  s.smallerRadius[k] = row.radius;
-  s.weight[k] = weight;
-  s.pairClass[k] = context.materials > 1 ? static_cast<std::int32_t>(context.material[group.grain] * context.materials + wall.material) : 0;
-  const double* const memory = slab.memoryOf(candidateIndex);
-  for (int component = 0; component < law_.stateSize; ++component) s.memory[component][k] = memory[component];
+  batch.rows[k] = {d.x(), d.y(), d.z(), 0, velocity.x(), velocity.y(), velocity.z(), place.inverseMass, spin.x(), spin.y(), spin.z(), 0};
+  batch.stage.weight[k] = slab.candidates[static_cast<std::size_t>(candidateIndex)].weight;
+  batch.stage.pairClass[k] = static_cast<std::int32_t>(context.material[group.grain] * context.materials + (*walls_)[group.wall].material);
 }
 
 // A grain that rolls from one feature to the next stays in contact: the new contact starts with the memory of the old one, as far as
@@ -461,28 +430,21 @@ void WallPass::handOver(const Surface& surface, SlabWalls& slab, const WallGroup
 void WallPass::flush(SlabWalls& slab, const PassContext& context, Batch& batch) {
   if (batch.count == 0) return;
   Stage& s = batch.stage;
-  batch.kernel(context, batch.count, s, batch.accounts);
-  for (int q = 0; q < batch.count; ++q) {
+  batch.kernel(context, {batch.grain.data(), batch.rows.data(), batch.count, slab.memory.data(), batch.candidate.data()}, s, batch.accounts);
+  for (int q = 0; (batch.account || batch.acting || loaded_ > 0) && q < batch.count; ++q) {
     const auto k = static_cast<std::size_t>(q);
-    const WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(batch.candidate[k])];
-    double* const memory = slab.memoryOf(batch.candidate[k]);
-    for (int component = 0; component < law_.stateSize; ++component) memory[component] = s.memory[component][q];
-    if (batch.acting && candidate.touching)
-      batch.acting->push_back(contactIn(s, q, batch.grain[k], ActingContact::ofWall(batch.wall[k]), law_.rolls));
-    const double inverseRadius = context.rows[batch.grain[k]].inverseRadius;
-    ForceRow& row = context.forces[batch.grain[k]];
-    row.fx += s.fx[q], row.fy += s.fy[q], row.fz += s.fz[q];
-    if (law_.turns) row.qx += s.qx[q], row.qy += s.qy[q], row.qz += s.qz[q];
-    if (law_.rolls) row.qx -= s.mx[q] * inverseRadius, row.qy -= s.my[q] * inverseRadius, row.qz -= s.mz[q] * inverseRadius;
-    if (batch.load[k] >= 0) {
-      WallLoad& load = slab.loads[static_cast<std::size_t>(batch.load[k])];
+    const bool touching = slab.candidates[static_cast<std::size_t>(batch.candidate[k])].touching;
+    if (batch.acting && touching) batch.acting->push_back(contactIn(s, q, batch.grain[k], ActingContact::ofWall(batch.wall[k]), law_.rolls));
+    if (const int loadPlace = loadOf_[batch.wall[k]]; loadPlace >= 0) {
+      WallLoad& load = slab.loads[static_cast<std::size_t>(loadPlace)];
       load.force -= Vec3(s.fx[q], s.fy[q], s.fz[q]);
-      load.contacts += candidate.touching;
+      load.contacts += touching;
       continue;
     }
     if (!batch.account) continue;
-    double power = s.fx[q] * batch.wallVelocity[k].x() + s.fy[q] * batch.wallVelocity[k].y() + s.fz[q] * batch.wallVelocity[k].z();
-    if (law_.rolls) power += s.mx[q] * batch.wallSpin[k].x() + s.my[q] * batch.wallSpin[k].y() + s.mz[q] * batch.wallSpin[k].z();
+    const WallContactRow& wall = batch.rows[k];
+    double power = s.fx[q] * wall.vx + s.fy[q] * wall.vy + s.fz[q] * wall.vz;
+    if (law_.rolls) power += s.mx[q] * wall.wx + s.my[q] * wall.wy + s.mz[q] * wall.wz;
     slab.lastWork += power * context.step.dt;
   }
   batch.count = 0;

@@ -69,6 +69,7 @@ struct WallPlace {
   // Made from these before the slabs are evaluated.
   Mat3 rotation = Mat3::Identity();
   bool turns = false;
+  double inverseMass = 0;      ///< 1/kg
   std::optional<Plane> plane;  ///< in the world, when the wall is an unbounded plane
 
   Vec3 toLocal(const Vec3& world) const { return rotation.transpose() * (world - pose.translation); }
@@ -105,17 +106,9 @@ class WallPass {
 
   std::vector<SlabWalls>& slabs() { return slabs_; }
   const std::vector<SlabWalls>& slabs() const { return slabs_; }
-  
 
  private:
   struct Batch;
-  /// A contact in the world: normal towards the grain, distance of its centre, where it is, share of the law that acts.
-  struct Touch {
-    Vec3 normal;
-    double distance;
-    Vec3 point;
-    double weight;
-  };
   struct Old;
   struct Few;
   static std::vector<Few> fewByFew(const State& state, std::int32_t begin, std::int32_t end, double wallSkin);
@@ -125,11 +118,11 @@ class WallPass {
                 const std::vector<Old>& old, SlabWalls& slab) const;
   void findNearPlane(const SlabWalls& slab, std::size_t wall, const PassContext& context, std::vector<std::int32_t>& found) const;
   void findNearMesh(const SlabWalls& slab, std::size_t wall, const PassContext& context, std::vector<std::int32_t>& found) const;
-  void evaluatePlane(SlabWalls& slab, WallGroup& group, WallWay& way, const PassContext& context, Batch& batch);
-  void put(SlabWalls& slab, const WallGroup& group, std::int32_t candidateIndex, const Touch& contact, const PassContext& context, Batch& batch);
-  void putEnded(SlabWalls& slab, const WallGroup& group, std::int32_t candidateIndex, const PassContext& context, Batch& batch);
-  void putColumns(SlabWalls& slab, const WallGroup& group, std::int32_t candidateIndex, const Vec3& d, const Vec3& point, double weight,
-                  const PassContext& context, Batch& batch);
+  void evaluatePlane(SlabWalls& slab, const WallPlace& place, WallGroup& group, WallWay& way, const PassContext& context, Batch& batch);
+  static void note(SlabWalls& slab, std::int32_t candidateIndex, const Vec3& normal, double weight);
+  void put(SlabWalls& slab, const WallPlace& place, const WallGroup& group, std::int32_t candidateIndex, const Vec3& d, const Vec3& velocity,
+           const PassContext& context, Batch& batch);
+  void putEnded(SlabWalls& slab, const WallPlace& place, const WallGroup& group, std::int32_t candidateIndex, const PassContext& context, Batch& batch);
   void evaluateGroup(SlabWalls& slab, WallGroup& group, WallWay& way, const PassContext& context, Batch& batch);
   static void wake(const Surface& surface, const Vec3& centre, double radius, double margin, SlabWalls& slab, WallGroup& group, WallWay& way);
   void handOver(const Surface& surface, SlabWalls& slab, const WallGroup& group, const WallContacts& contacts, const Mat3& rotation);

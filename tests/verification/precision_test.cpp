@@ -1,4 +1,4 @@
-// Mixed precision: contacts between grains in single numbers, from differences taken in double. What must not be lost with them.
+// Mixed precision: contacts between grains in single numbers, from differences of places taken in double. What must not be lost with them.
 
 #include <gtest/gtest.h>
 
@@ -72,6 +72,95 @@ TEST(MixedPrecision, CollisionsEndAsInDouble) {
       EXPECT_LT((x.angularVelocity[g] - y.angularVelocity[g]).norm(), 2e-2) << n;  // of some 100 rad/s
     }
   }
+}
+
+// Grains that fly together and rub, with all that a scene may have beside contacts: whatever moves grains, the single rows go along, and
+// whatever else acts adds to the same forces.
+Scenario crowd(int seed) {
+  Scenario s;
+  s.model.contact = {"linear", "spring", "elastic_plastic", false};
+  s.pair[Property::normalStiffness] = 3000;
+  s.pair[Property::restitution] = 0.6;
+  s.pair[Property::friction] = 0.4;
+  s.pair[Property::rollingFriction] = 0.1;
+  Random random(static_cast<std::uint64_t>(seed), 3);
+  const auto any = [&](double size) {
+    const double x = random.uniform(-size, size), y = random.uniform(-size, size), z = random.uniform(-size, size);
+    return Vec3(x, y, z);
+  };
+  for (int n = 0; n < 48; ++n) {
+    const Vec3 place = 4.4e-3 * Vec3(n % 4 - 1.5, n / 4 % 4 - 1.5, n / 16 - 1) + any(2e-5);
+    s.grain(random.uniform(2e-5, 6e-5), random.uniform(1.5e-3, 2.1e-3), place, -80 * place + any(0.2), any(40));
+  }
+  s.model.gravity = {0.4, 0, -9.81};
+  s.plane({0, 0, -8e-3}, {0, 0, 1});
+  return s;
+}
+
+struct Setting {
+  const char* name;
+  void (*set)(Scenario&);
+};
+
+TEST(MixedPrecision, FollowsDoubleWhateverElseTheSceneHas) {
+  const Setting settings[] = {
+      {"velocity Verlet", [](Scenario&) {}},
+      {"symplectic Euler", [](Scenario& s) { s.model.integrator = Integrator::symplecticEuler; }},
+      {"explicit Euler", [](Scenario& s) { s.model.integrator = Integrator::explicitEuler; }},
+      {"leapfrog", [](Scenario& s) { s.model.integrator = Integrator::leapfrog; }},
+      {"central differences", [](Scenario& s) { s.model.integrator = Integrator::centralDifferences; }},
+      {"nothing turns", [](Scenario& s) { s.model.contact = {"linear", "none", "none", false}; }},
+      {"periodic", [](Scenario& s) {
+         s.model.periodic = {true, true, false};
+         s.model.domain = Box(Vec3(-9e-3, -9e-3, -1), Vec3(9e-3, 9e-3, 1));
+       }},
+      {"damping", [](Scenario& s) { s.model.fields.damping.emplace().rate = 3; }},
+      {"continuous", [](Scenario& s) {
+         s.model.continuous = true;
+         s.grain(4e-5, 2e-3, {0, 0, 0.03}, {0, 0, -60});
+         s.model.watch.stop = false;
+       }},
+  };
+  for (const Setting& setting : settings) {
+    SCOPED_TRACE(setting.name);
+    Scenario s = crowd(4);
+    setting.set(s);
+    Scenario single = s;
+    single.model.precision = Precision::mixed;
+    Simulation a = s.start(2e-6), b = single.start(2e-6, 2), looked = single.start(2e-6);
+    for (int n = 0; n < 40; ++n) {
+      looked.advance(75);
+      looked.ledger();
+      look(looked);
+    }
+    a.advance(3000);
+    b.advance(3000);
+    EXPECT_EQ(b.stateHash(), looked.stateHash());
+    EXPECT_NE(a.stateHash(), b.stateHash());
+    const Snapshot x = look(a), y = look(b);
+    int met = 0;
+    for (std::size_t g = 0; g < x.position.size(); ++g) {
+      EXPECT_LT((x.position[g] - y.position[g]).norm(), 1e-8) << g;
+      EXPECT_LT((x.velocity[g] - y.velocity[g]).norm(), 2e-4) << g;
+      met += (x.velocity[g] - s.model.grains[g].velocity - a.time() * s.model.gravity).norm() > 0.1;
+    }
+    EXPECT_GT(met, 30);
+  }
+}
+
+// A step that changes its length moves grains once more (I8), and the single rows with them.
+TEST(MixedPrecision, FollowsDoubleThroughChangesOfTheStep) {
+  Scenario s = crowd(6), single = s;
+  single.model.precision = Precision::mixed;
+  Simulation a = s.start(2e-6), b = single.start(2e-6);
+  for (const double dt : {1e-6, 3e-6, 2e-6}) {
+    for (Simulation* sim : {&a, &b}) {
+      sim->setTimeStep(dt);
+      sim->advance(800);
+    }
+  }
+  const Snapshot x = look(a), y = look(b);
+  for (std::size_t g = 0; g < x.position.size(); ++g) EXPECT_LT((x.position[g] - y.position[g]).norm(), 1e-8) << g;
 }
 
 std::string refusal(Scenario s) {

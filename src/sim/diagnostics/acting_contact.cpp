@@ -12,10 +12,10 @@ ActingContact contactIn(const StageIn<Real>& s, int q, std::int32_t first, std::
 }
 
 template <class Real>
-void passNoting(PairKernelIn<Real> kernel, const PassContext& context, const PairRange& range, bool rolls, StageIn<Real>& stage, Accounts& accounts,
+void passNoting(PairKernelIn<Real> kernel, const PassContext& context, const PairRangeIn<Real>& range, bool rolls, StageIn<Real>& stage, Accounts& accounts,
                 std::vector<ActingContact>& acting) {
   for (std::int64_t first = 0; first < range.count; first += chunkSize) {
-    PairRange chunk = range;
+    PairRangeIn<Real> chunk = range;
     chunk.i += first, chunk.j += first, chunk.memory += first;
     if (chunk.touch) chunk.touch += first;
     chunk.count = std::min<std::int64_t>(chunkSize, range.count - first);
@@ -26,7 +26,7 @@ void passNoting(PairKernelIn<Real> kernel, const PassContext& context, const Pai
 }
 
 template ActingContact contactIn(const StageIn<double>&, int, std::int32_t, std::int32_t, bool);
-template void passNoting(PairKernelIn<double>, const PassContext&, const PairRange&, bool, StageIn<double>&, Accounts&, std::vector<ActingContact>&);
-template void passNoting(PairKernelIn<float>, const PassContext&, const PairRange&, bool, StageIn<float>&, Accounts&, std::vector<ActingContact>&);
+template void passNoting(PairKernelIn<double>, const PassContext&, const PairRangeIn<double>&, bool, StageIn<double>&, Accounts&, std::vector<ActingContact>&);
+template void passNoting(PairKernelIn<float>, const PassContext&, const PairRangeIn<float>&, bool, StageIn<float>&, Accounts&, std::vector<ActingContact>&);
 
 }  // namespace tsubu::sim

@@ -13,6 +13,8 @@ namespace tsubu::sim {
 struct MoveContext {
   GrainRow* rows;
   ForceRow* forces;
+  SingleRow* single;
+  SingleForceRow* singleForces;
   HalfStepRow* half;
   PlaceRow* previous;
   AngleRow* turned;
@@ -39,18 +41,29 @@ struct Motion {
   }
 };
 
+/// Which variant of the loop: do grains turn; have they single rows to be kept up to date; do the single force rows act, and not the others?
+struct MoveKind {
+  bool turns, mixed, bySingle;
+};
+
 /// Moves grains [first, last) by one step (docs/physics.md, I1–I6) and clears their forces.
 using MoveKernel = Motion (*)(const MoveContext&, std::int32_t first, std::int32_t last);
 
+/// Turns orientations (x, y, z, w in a row each) of `count` grains by these angles (docs/physics.md, I3).
+using TurnKernel = void (*)(double* orientations, const AngleRow* angles, std::int64_t count);
+
 /// Which of `count` pairs are nearer than the sum of their radii and this share of their skins (m): their places, in order. `kept` has room
 /// for `count` rounded up to a multiple of four. Returns how many.
-using NearKernel = std::int64_t (*)(const GrainRow* rows, const double* skins, double share, const std::int32_t* i, const std::int32_t* j,
+template <class Row>
+using NearKernel = std::int64_t (*)(const Row* rows, const double* skins, double share, const std::int32_t* i, const std::int32_t* j,
                                     std::int64_t count, std::int32_t* kept);
 
 /// The loops for one instruction set.
 struct GrainKernels {
-  MoveKernel (*move)(Integrator scheme, bool turns);  ///< all but Runge–Kutta
-  NearKernel nearPairs;
+  MoveKernel (*move)(Integrator scheme, MoveKind kind);  ///< all but Runge–Kutta
+  TurnKernel turn;
+  NearKernel<GrainRow> nearPairs;
+  NearKernel<SingleRow> nearSinglePairs;  ///< mixed precision: places and radii are the same
 };
 
 }  // namespace tsubu::sim

@@ -20,16 +20,30 @@ struct StepLanes {
         perStep{1 / step, 1 / step, 1 / step, 0} {}
 };
 
+/// What acts on a grain, F and Q; taken away from where it is.
+template <bool bySingle>
+TSUBU_INLINE void takeForces(const MoveContext& context, std::int32_t g, D4& f, D4& q) {
+  if constexpr (bySingle) {
+    SingleForceRow& force = context.singleForces[g];
+    const F8 both = load8(&force.fx);
+    f = as<double>(lowHalf(both)), q = as<double>(highHalf(both));
+    store8(&force.fx, F8{});
+  } else {
+    ForceRow& force = context.forces[g];
+    f = load4(&force.fx), q = load4(&force.qx);
+    store4(&force.fx, D4{}), store4(&force.qx, D4{});
+  }
+}
+
 /// Returns the velocity by which the grain has gone.
-template <Integrator scheme, bool turns>
+template <Integrator scheme, bool turns, bool mixed, bool bySingle>
 TSUBU_INLINE D4 moveGrain(const MoveContext& context, const StepLanes& step, const D4& gravity, std::int32_t g) {
   GrainRow& row = context.rows[g];
-  ForceRow& force = context.forces[g];
-  const D4 x = load4(&row.x), rowV = load4(&row.vx), rowS = load4(&row.sx), none{0, 0, 0, 0};
-  const D4 a = fill4(row.inverseMass) * load4(&force.fx) + gravity;
-  const D4 b = fill4(-2.5 * row.inverseMass) * load4(&force.qx);
-  store4(&force.fx, none);
-  store4(&force.qx, none);
+  const D4 x = load4(&row.x), rowV = load4(&row.vx), rowS = load4(&row.sx);
+  D4 f, q;
+  takeForces<bySingle>(context, g, f, q);
+  const D4 a = fill4(row.inverseMass) * f + gravity;
+  const D4 b = fill4(-2.5 * row.inverseMass) * q;
   constexpr bool verlet = scheme == Integrator::velocityVerlet;
   const D4 before = verlet ? load4(&context.half[g].vx) : rowV, spinBefore = verlet ? load4(&context.half[g].sx) : rowS;
   D4 u = before + step.dt * a;
@@ -53,6 +67,11 @@ TSUBU_INLINE D4 moveGrain(const MoveContext& context, const StepLanes& step, con
   }
   store4(&row.x, next);
   store4(&row.vx, v);
+  if constexpr (mixed) {
+    SingleRow& single = context.single[g];
+    store4(&single.x, next);
+    store8(&single.vx, joined(as<float>(v), as<float>(s)));
+  }
   if constexpr (turns) {
     store4(&row.sx, s);
     add4(&context.turned[g].x, (step.dt * fill4(row.inverseRadius)) * spin);
@@ -80,7 +99,7 @@ struct MotionLanes {
   }
 };
 
-template <Integrator scheme, bool turns>
+template <Integrator scheme, bool turns, bool mixed, bool bySingle>
 Motion moveGrains(const MoveContext& context, std::int32_t first, std::int32_t last) {
   const StepLanes step(context.dt);
   const D4 gravity{context.gravity.x, context.gravity.y, context.gravity.z, 0};
@@ -90,7 +109,7 @@ Motion moveGrains(const MoveContext& context, std::int32_t first, std::int32_t l
   for (; g + 4 <= last; g += 4) {
     D4 square[4], scale;
     for (int k = 0; k < 4; ++k) {
-      const D4 speed = moveGrain<scheme, turns>(context, step, gravity, g + k);
+      const D4 speed = moveGrain<scheme, turns, mixed, bySingle>(context, step, gravity, g + k);
       square[k] = speed * speed;
       scale[k] = context.rows[g + k].inverseRadius;
     }
@@ -99,30 +118,96 @@ Motion moveGrains(const MoveContext& context, std::int32_t first, std::int32_t l
   }
   lanes.addTo(motion);
   for (; g < last; ++g) {
-    const D4 speed = moveGrain<scheme, turns>(context, step, gravity, g), square = speed * speed;
+    const D4 speed = moveGrain<scheme, turns, mixed, bySingle>(context, step, gravity, g), square = speed * speed;
     motion.add(square[0] + square[1] + square[2], context.dt * context.rows[g].inverseRadius, context.perSkin2[g]);
   }
   return motion;
 }
 
-MoveKernel moveFor(Integrator scheme, bool turns) {
-  switch (scheme) {
-    case Integrator::velocityVerlet:
-      return turns ? &moveGrains<Integrator::velocityVerlet, true> : &moveGrains<Integrator::velocityVerlet, false>;
-    case Integrator::explicitEuler:
-      return turns ? &moveGrains<Integrator::explicitEuler, true> : &moveGrains<Integrator::explicitEuler, false>;
-    case Integrator::leapfrog:
-      return turns ? &moveGrains<Integrator::leapfrog, true> : &moveGrains<Integrator::leapfrog, false>;
-    case Integrator::centralDifferences:
-      return turns ? &moveGrains<Integrator::centralDifferences, true> : &moveGrains<Integrator::centralDifferences, false>;
-    case Integrator::rungeKutta:  // not by single passes: runge_kutta.h
-    case Integrator::symplecticEuler:
-      break;
-  }
-  return turns ? &moveGrains<Integrator::symplecticEuler, true> : &moveGrains<Integrator::symplecticEuler, false>;
+template <Integrator scheme, bool turns>
+MoveKernel moveBy(MoveKind kind) {
+  if (!kind.mixed) return &moveGrains<scheme, turns, false, false>;
+  return kind.bySingle ? &moveGrains<scheme, turns, true, true> : &moveGrains<scheme, turns, true, false>;
+}
+template <Integrator scheme>
+MoveKernel moveBy(MoveKind kind) {
+  return kind.turns ? moveBy<scheme, true>(kind) : moveBy<scheme, false>(kind);
 }
 
-std::int64_t nearPairs(const GrainRow* rows, const double* skins, double share, const std::int32_t* is, const std::int32_t* js,
+MoveKernel moveFor(Integrator scheme, MoveKind kind) {
+  switch (scheme) {
+    case Integrator::velocityVerlet: return moveBy<Integrator::velocityVerlet>(kind);
+    case Integrator::explicitEuler: return moveBy<Integrator::explicitEuler>(kind);
+    case Integrator::leapfrog: return moveBy<Integrator::leapfrog>(kind);
+    case Integrator::centralDifferences: return moveBy<Integrator::centralDifferences>(kind);
+    case Integrator::rungeKutta:  // not by single passes: runge_kutta.h
+    case Integrator::symplecticEuler: break;
+  }
+  return moveBy<Integrator::symplecticEuler>(kind);
+}
+
+/// Quaternions of four grains, side by side.
+struct Quat4 {
+  D4 x, y, z, w;
+};
+TSUBU_INLINE Quat4 product(const Quat4& a, const Quat4& b) {
+  return {a.w * b.x + a.x * b.w + (a.y * b.z - a.z * b.y), a.w * b.y + a.y * b.w + (a.z * b.x - a.x * b.z),
+          a.w * b.z + a.z * b.w + (a.x * b.y - a.y * b.x), a.w * b.w - (a.x * b.x + a.y * b.y + a.z * b.z)};
+}
+
+/// exp(½ a). Series of cos and sin of half the angle, exact to rounding up to 0.2 rad: no library function, the same bits everywhere.
+TSUBU_INLINE Quat4 rotationBySmall(const D4& x, const D4& y, const D4& z) {
+  const D4 b = fill4(0.25) * (x * x + y * y + z * z);  // (half the angle)²
+  const D4 c = 1 - b * (1.0 / 2) * (1 - b * (1.0 / 12) * (1 - b * (1.0 / 30) * (1 - b * (1.0 / 56) * (1 - b * (1.0 / 90)))));
+  const D4 s = 1 - b * (1.0 / 6) * (1 - b * (1.0 / 20) * (1 - b * (1.0 / 42) * (1 - b * (1.0 / 72) * (1 - b * (1.0 / 110)))));
+  const D4 half = fill4(0.5) * s;
+  return {half * x, half * y, half * z, c};
+}
+
+/// Larger angles are halved until they are small, and the rotation is squared as often: each lane for itself.
+TSUBU_INLINE Quat4 rotationBy(D4 x, D4 y, D4 z) {
+  constexpr double small2 = 0.04;  // rad²
+  constexpr int mostHalvings = 64;
+  D4 halvings{};
+  int most = 0;
+  for (; most < mostHalvings; ++most) {
+    const auto large = x * x + y * y + z * z > fill4(small2);
+    if (!(large[0] || large[1] || large[2] || large[3])) break;
+    const D4 scale = large ? fill4(0.5) : fill4(1);
+    x *= scale, y *= scale, z *= scale;
+    halvings += large ? fill4(1) : fill4(0);
+  }
+  Quat4 q = rotationBySmall(x, y, z);
+  for (int k = 1; k <= most; ++k) {
+    const Quat4 squared = product(q, q);
+    const auto again = halvings >= fill4(k);
+    q = {again ? squared.x : q.x, again ? squared.y : q.y, again ? squared.z : q.z, again ? squared.w : q.w};
+  }
+  return q;
+}
+
+void turnGrains(double* orientations, const AngleRow* angles, std::int64_t count) {
+  for (std::int64_t first = 0; first < count; first += 4) {
+    const std::int64_t few = count - first < 4 ? count - first : 4;
+    D4 a[4], o[4];
+    for (int k = 0; k < 4; ++k) {
+      const std::int64_t from = first + (k < few ? k : 0);
+      a[k] = load4(&angles[from].x);
+      o[k] = load4(orientations + 4 * from);
+    }
+    transpose4(a[0], a[1], a[2], a[3]);
+    transpose4(o[0], o[1], o[2], o[3]);
+    const Quat4 q = product(rotationBy(a[0], a[1], a[2]), {o[0], o[1], o[2], o[3]});
+    D4 length2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, scale;
+    for (int k = 0; k < 4; ++k) scale[k] = 1 / std::sqrt(length2[k]);
+    o[0] = scale * q.x, o[1] = scale * q.y, o[2] = scale * q.z, o[3] = scale * q.w;
+    transpose4(o[0], o[1], o[2], o[3]);
+    for (int k = 0; k < few; ++k) store4(orientations + 4 * (first + k), o[k]);
+  }
+}
+
+template <class Row>
+std::int64_t nearPairs(const Row* rows, const double* skins, double share, const std::int32_t* is, const std::int32_t* js,
                        std::int64_t count, std::int32_t* kept) {
   const D4 signs{-1, -1, -1, 1};
   std::int64_t found = 0;

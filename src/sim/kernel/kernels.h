@@ -18,19 +18,39 @@ namespace tsubu::sim {
 struct GrainKernels;
 
 /// A run of listed pairs (i < j) with their memory: component c of contact k at memory[c * stride + k].
-struct PairRange {
+template <class Real>
+struct PairRangeIn {
   const std::int32_t* i;
   const std::int32_t* j;
   std::int64_t count;
-  double* memory;
+  Real* memory;
   std::size_t stride;
   const double* touch = nullptr;  ///< m: distance of the centres at which a pair begins to touch; 0 for r_i + r_j. Null: so for all
+};
+
+/// A contact with a wall as it is put on the bench, in the world.
+struct alignas(32) WallContactRow {
+  double dx, dy, dz, unused0;  ///< m: from the wall to the centre of the grain
+  double vx, vy, vz;           ///< m/s: of the wall where they touch
+  double inverseMass;          ///< 1/kg: of the wall
+  double wx, wy, wz, unused1;  ///< rad/s: of the wall
+};
+
+/// Contacts with walls. Their weights and classes lie in the stage already.
+struct WallRange {
+  const std::int32_t* grain;
+  const WallContactRow* rows;
+  int count;               ///< no more than a chunk
+  double* memory;
+  const std::int32_t* at;  ///< memory of contact k: from memory[at[k] * stateSize] on
 };
 
 /// What a pass needs beyond the contacts themselves.
 struct PassContext {
   const GrainRow* rows;
   ForceRow* forces;
+  const SingleRow* single;        ///< mixed precision: what contacts between grains read instead; null otherwise
+  SingleForceRow* singleForces;   ///< and where the forces of all contacts go
   const std::uint16_t* material;  ///< per grain
   std::size_t materials;
   const double* pairs;            ///< constants of materials × materials, or of the one class
@@ -47,10 +67,10 @@ struct PassKind {
 
 /// Adds the forces of a range of pairs to the force rows; `Real`: what the contacts are computed in.
 template <class Real>
-using PairKernelIn = void (*)(const PassContext&, const PairRange&, StageIn<Real>&, Accounts&);
+using PairKernelIn = void (*)(const PassContext&, const PairRangeIn<Real>&, StageIn<Real>&, Accounts&);
 using PairKernel = PairKernelIn<double>;
-/// Computes `count` wall contacts that lie in the stage, memory included.
-using WallKernel = void (*)(const PassContext&, int count, Stage&, Accounts&);
+/// Adds the forces of contacts with walls to the force rows; they stay in the stage.
+using WallKernel = void (*)(const PassContext&, const WallRange&, Stage&, Accounts&);
 
 /// The loops for one instruction set; nullptr where it has none of its own for a law and kind.
 struct Kernels {

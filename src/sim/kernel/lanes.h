@@ -1,5 +1,5 @@
 #pragma once
-// Four numbers at once: how rows of grains, which are doubles, become columns of the stage and back. Compiler vectors: the same source
+// Four doubles or eight single numbers at once: how rows of grains become columns of the stage and back. Compiler vectors: the same source
 // for every instruction set, and only loads, sums, shuffles and conversions, so the same bits.
 
 #include <cstring>
@@ -13,6 +13,7 @@ namespace tsubu::sim {
 
 typedef double D4 __attribute__((vector_size(32)));
 typedef float F4 __attribute__((vector_size(16)));
+typedef float F8 __attribute__((vector_size(32)));
 
 template <class Real>
 using Four = std::conditional_t<std::is_same_v<Real, float>, F4, D4>;
@@ -31,6 +32,19 @@ TSUBU_INLINE F4 load4(const float* from) {
 
 TSUBU_INLINE void store4(double* to, const D4& value) { std::memcpy(to, &value, sizeof value); }
 TSUBU_INLINE void store4(float* to, const F4& value) { std::memcpy(to, &value, sizeof value); }
+
+TSUBU_INLINE F8 load8(const float* from) {
+  F8 value;
+  std::memcpy(&value, from, sizeof value);
+  return value;
+}
+TSUBU_INLINE void store8(float* to, const F8& value) { std::memcpy(to, &value, sizeof value); }
+
+TSUBU_INLINE F8 fill8(float value) { return F8{value, value, value, value, value, value, value, value}; }
+
+TSUBU_INLINE F4 lowHalf(const F8& both) { return __builtin_shufflevector(both, both, 0, 1, 2, 3); }
+TSUBU_INLINE F4 highHalf(const F8& both) { return __builtin_shufflevector(both, both, 4, 5, 6, 7); }
+TSUBU_INLINE F8 joined(const F4& low, const F4& high) { return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7); }
 
 /// To the precision of the stage, and back to that of the rows.
 template <class Real, class Vector>
@@ -55,6 +69,28 @@ TSUBU_INLINE void transpose4(Vector& a, Vector& b, Vector& c, Vector& d) {
   b = __builtin_shufflevector(ab13, cd13, 0, 1, 4, 5);
   c = __builtin_shufflevector(ab02, cd02, 2, 3, 6, 7);
   d = __builtin_shufflevector(ab13, cd13, 2, 3, 6, 7);
+}
+
+/// Eight rows of eight become columns.
+TSUBU_INLINE void transpose8(F8 (&r)[8]) {
+  F8 a[8], b[8];
+#pragma GCC unroll 4
+  for (int k = 0; k < 8; k += 2) {
+    a[k] = __builtin_shufflevector(r[k], r[k + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+    a[k + 1] = __builtin_shufflevector(r[k], r[k + 1], 2, 10, 3, 11, 6, 14, 7, 15);
+  }
+#pragma GCC unroll 2
+  for (int k = 0; k < 8; k += 4) {
+    b[k] = __builtin_shufflevector(a[k], a[k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+    b[k + 1] = __builtin_shufflevector(a[k], a[k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+    b[k + 2] = __builtin_shufflevector(a[k + 1], a[k + 3], 0, 1, 8, 9, 4, 5, 12, 13);
+    b[k + 3] = __builtin_shufflevector(a[k + 1], a[k + 3], 2, 3, 10, 11, 6, 7, 14, 15);
+  }
+#pragma GCC unroll 4
+  for (int k = 0; k < 4; ++k) {
+    r[k] = __builtin_shufflevector(b[k], b[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+    r[k + 4] = __builtin_shufflevector(b[k], b[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+  }
 }
 
 }  // namespace tsubu::sim

@@ -26,65 +26,98 @@ TSUBU_INLINE D4 spinRow(const GrainRow& row) {
   const D4 mass{1, 1, 1, row.inverseMass};
   return (load4(&row.sx) * inverseRadius) * mass;
 }
+TSUBU_INLINE F4 spinRow(const SingleRow& row) {
+  const F4 inverseRadius{row.inverseRadius, row.inverseRadius, row.inverseRadius, row.inverseRadius};
+  const F4 mass{1, 1, 1, row.inverseMass};
+  return (load4(&row.sx) * inverseRadius) * mass;
+}
+
+/// Stores columns of which the rows have been turned.
+template <class Vector, class Real>
+TSUBU_INLINE void storeColumns(const Vector (&v)[4], Real* a, Real* b, Real* c, Real* d) {
+  store4(a, as<Real>(v[0])), store4(b, as<Real>(v[1])), store4(c, as<Real>(v[2])), store4(d, as<Real>(v[3]));
+}
+
+/// ω − ω' and 1/(m r²) + 1/(m' r'²) of four contacts.
+template <class Row, class Real>
+TSUBU_INLINE void gatherSpins(const Row* rows, const std::int32_t* is, const std::int32_t* js, int q, StageIn<Real>& s) {
+  const Four<Real> signs{-1, -1, -1, 1};
+  Four<Real> r[4];
+  for (int k = 0; k < 4; ++k) r[k] = spinRow(rows[is[k]]) + signs * spinRow(rows[js[k]]);
+  transpose4(r[0], r[1], r[2], r[3]);
+  storeColumns(r, s.rx + q, s.ry + q, s.rz + q, s.inverseInertiaSum + q);
+}
+
+/// How many contacts are gathered and scattered at once.
+template <class Real>
+constexpr int together = single<Real> ? 8 : 4;
 
 /// Four contacts at once: difference and sum of the two rows (x − x', r + r'; v − v', 1/m + 1/m'; rω + r'ω', 1/r + 1/r'; ω − ω',
-/// 1/(m r²) + 1/(m' r'²)), turned into columns. Differences are taken in double, whatever the columns are.
-template <class Law, class Real>
-TSUBU_INLINE void gatherFour(const GrainRow* rows, const std::int32_t* is, const std::int32_t* js, int q, StageIn<Real>& s) {
+/// 1/(m r²) + 1/(m' r'²)), turned into columns.
+template <class Law>
+TSUBU_INLINE void gatherSome(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int q, Stage& s) {
+  const GrainRow* const rows = context.rows;
   const D4 signs{-1, -1, -1, 1};
-  D4 x[4];
-  Four<Real> v[4], w[4];
+  D4 x[4], v[4], w[4];
   for (int k = 0; k < 4; ++k) {
     const double* const a = &rows[is[k]].x;
     const double* const b = &rows[js[k]].x;
     x[k] = load4(a) + signs * load4(b);
-    v[k] = as<Real>(load4(a + 4) + signs * load4(b + 4));
-    if constexpr (Law::turns || Law::readsRadius) w[k] = as<Real>(load4(a + 8) + load4(b + 8));
+    v[k] = load4(a + 4) + signs * load4(b + 4);
+    if constexpr (Law::turns || Law::readsRadius) w[k] = load4(a + 8) + load4(b + 8);
   }
   transpose4(x[0], x[1], x[2], x[3]);
-  if constexpr (single<Real>) store4(s.gap + q, as<Real>(x[3] * x[3] - (x[0] * x[0] + x[1] * x[1] + x[2] * x[2])));
-  store4(s.dx + q, as<Real>(x[0]));
-  store4(s.dy + q, as<Real>(x[1]));
-  store4(s.dz + q, as<Real>(x[2]));
-  store4(s.radiusSum + q, as<Real>(x[3]));
+  storeColumns(x, s.dx + q, s.dy + q, s.dz + q, s.radiusSum + q);
   transpose4(v[0], v[1], v[2], v[3]);
-  store4(s.dvx + q, v[0]);
-  store4(s.dvy + q, v[1]);
-  store4(s.dvz + q, v[2]);
-  store4(s.inverseMassSum + q, v[3]);
+  storeColumns(v, s.dvx + q, s.dvy + q, s.dvz + q, s.inverseMassSum + q);
   if constexpr (Law::turns || Law::readsRadius) {
     transpose4(w[0], w[1], w[2], w[3]);
-    store4(s.sx + q, w[0]);
-    store4(s.sy + q, w[1]);
-    store4(s.sz + q, w[2]);
-    if constexpr (Law::readsRadius) store4(s.inverseRadiusSum + q, w[3]);
+    storeColumns(w, s.sx + q, s.sy + q, s.sz + q, s.inverseRadiusSum + q);
   }
-  if constexpr (Law::rolls) {
-    Four<Real> r[4];
-    for (int k = 0; k < 4; ++k) r[k] = as<Real>(spinRow(rows[is[k]]) + signs * spinRow(rows[js[k]]));
-    transpose4(r[0], r[1], r[2], r[3]);
-    store4(s.rx + q, r[0]);
-    store4(s.ry + q, r[1]);
-    store4(s.rz + q, r[2]);
-    store4(s.inverseInertiaSum + q, r[3]);
-  }
+  if constexpr (Law::rolls) gatherSpins(rows, is, js, q, s);
 }
 
-/// Columns of the stage from the rows of both grains. The columns have room for a multiple of four: places beyond `count` repeat the
+/// Eight contacts at once, in single precision but for the difference of the places, of which the overlap is a small part.
+template <class Law>
+TSUBU_INLINE void gatherSome(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int q, StageIn<float>& s) {
+  const SingleRow* const rows = context.single;
+  const D4 signs{-1, -1, -1, 1};
+  const F8 signsOfBoth{-1, -1, -1, 1, 1, 1, 1, 1};
+  F8 v[8];
+  for (int h = 0; h < 8; h += 4) {
+    D4 x[4];
+    for (int k = 0; k < 4; ++k) {
+      const SingleRow &a = rows[is[h + k]], &b = rows[js[h + k]];
+      x[k] = load4(&a.x) + signs * load4(&b.x);
+      v[h + k] = load8(&a.vx) + signsOfBoth * load8(&b.vx);
+    }
+    transpose4(x[0], x[1], x[2], x[3]);
+    store4(s.gap + q + h, as<float>(x[3] * x[3] - (x[0] * x[0] + x[1] * x[1] + x[2] * x[2])));
+    storeColumns(x, s.dx + q + h, s.dy + q + h, s.dz + q + h, s.radiusSum + q + h);
+    if constexpr (Law::rolls) gatherSpins(rows, is + h, js + h, q + h, s);
+  }
+  transpose8(v);
+  store8(s.dvx + q, v[0]), store8(s.dvy + q, v[1]), store8(s.dvz + q, v[2]), store8(s.inverseMassSum + q, v[3]);
+  if constexpr (Law::turns) store8(s.sx + q, v[4]), store8(s.sy + q, v[5]), store8(s.sz + q, v[6]);
+  if constexpr (Law::readsRadius) store8(s.inverseRadiusSum + q, v[7]);
+}
+
+/// Columns of the stage from the rows of both grains. The columns have room for a multiple of eight: places beyond `count` repeat the
 /// last contact.
 template <class Law, bool oneClass, class Real>
 void gather(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, StageIn<Real>& s) {
   const GrainRow* const rows = context.rows;
+  constexpr int some = together<Real>;
   int q = 0;
-  for (; q + 4 <= count; q += 4) gatherFour<Law>(rows, is + q, js + q, q, s);
+  for (; q + some <= count; q += some) gatherSome<Law>(context, is + q, js + q, q, s);
   if (q < count) {
-    std::int32_t i[4], j[4];
-    for (int k = 0; k < 4; ++k) {
+    std::int32_t i[some], j[some];
+    for (int k = 0; k < some; ++k) {
       const int from = q + k < count ? q + k : count - 1;
       i[k] = is[from];
       j[k] = js[from];
     }
-    gatherFour<Law>(rows, i, j, q, s);
+    gatherSome<Law>(context, i, j, q, s);
   }
   if (context.observed)
     for (q = 0; q < count; ++q) s.smallerRadius[q] = static_cast<Real>(smaller(rows[is[q]].radius, rows[js[q]].radius));
@@ -353,35 +386,55 @@ void addDeepest(int count, const StageIn<Real>& s, Accounts& accounts) {
   for (int q = 0; q < count; ++q) deepest[q & 7] = larger(deepest[q & 7], s.overlap[q] / s.smallerRadius[q]);
 }
 
-/// Adds the columns of up to four contacts to the rows of both grains.
-template <class Law, class Real>
-TSUBU_INLINE void scatterFour(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, int q, StageIn<Real>& s) {
-  using R4 = Four<Real>;
-  R4 f[4] = {load4(s.fx + q), load4(s.fy + q), load4(s.fz + q), R4{}}, c[4], m[4];
+/// Adds the columns of up to four contacts to the rows of both grains. T = −r Q + M, so a moment is −M/r in Q, which differs for the two.
+template <class Law>
+TSUBU_INLINE void scatterSome(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, int q, const Stage& s) {
+  D4 f[4] = {load4(s.fx + q), load4(s.fy + q), load4(s.fz + q), D4{}}, c[4], m[4];
   transpose4(f[0], f[1], f[2], f[3]);
   if constexpr (Law::turns) {
-    c[0] = load4(s.qx + q), c[1] = load4(s.qy + q), c[2] = load4(s.qz + q), c[3] = R4{};
+    c[0] = load4(s.qx + q), c[1] = load4(s.qy + q), c[2] = load4(s.qz + q), c[3] = D4{};
     transpose4(c[0], c[1], c[2], c[3]);
   }
   if constexpr (Law::rolls) {
-    m[0] = load4(s.mx + q), m[1] = load4(s.my + q), m[2] = load4(s.mz + q), m[3] = R4{};
+    m[0] = load4(s.mx + q), m[1] = load4(s.my + q), m[2] = load4(s.mz + q), m[3] = D4{};
     transpose4(m[0], m[1], m[2], m[3]);
   }
   for (int k = 0; k < count; ++k) {
     double* const a = &context.forces[is[k]].fx;
     double* const b = &context.forces[js[k]].fx;
-    const D4 force = as<double>(f[k]);
-    add4(a, force);
-    subtract4(b, force);
+    add4(a, f[k]);
+    subtract4(b, f[k]);
     if constexpr (Law::rolls) {
-      // T = −r Q + M, so a moment is −M/r in Q, which differs for the two.
-      const D4 couple = as<double>(c[k]), moment = as<double>(m[k]);
-      add4(a + 4, couple - fill4(context.rows[is[k]].inverseRadius) * moment);
-      add4(b + 4, couple + fill4(context.rows[js[k]].inverseRadius) * moment);
+      add4(a + 4, c[k] - fill4(context.rows[is[k]].inverseRadius) * m[k]);
+      add4(b + 4, c[k] + fill4(context.rows[js[k]].inverseRadius) * m[k]);
     } else if constexpr (Law::turns) {
-      const D4 couple = as<double>(c[k]);
-      add4(a + 4, couple);
-      add4(b + 4, couple);
+      add4(a + 4, c[k]);
+      add4(b + 4, c[k]);
+    }
+  }
+}
+
+/// The same for up to eight contacts in single precision.
+template <class Law>
+TSUBU_INLINE void scatterSome(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, int q, const StageIn<float>& s) {
+  const F8 opposite{-1, -1, -1, 1, 1, 1, 1, 1};
+  F8 f[8] = {load8(s.fx + q), load8(s.fy + q), load8(s.fz + q)}, m[8];
+  if constexpr (Law::turns) f[4] = load8(s.qx + q), f[5] = load8(s.qy + q), f[6] = load8(s.qz + q);
+  transpose8(f);
+  if constexpr (Law::rolls) {
+    m[0] = m[1] = m[2] = m[3] = m[7] = F8{};
+    m[4] = load8(s.mx + q), m[5] = load8(s.my + q), m[6] = load8(s.mz + q);
+    transpose8(m);
+  }
+  for (int k = 0; k < count; ++k) {
+    float* const a = &context.singleForces[is[k]].fx;
+    float* const b = &context.singleForces[js[k]].fx;
+    if constexpr (Law::rolls) {
+      store8(a, load8(a) + (f[k] - fill8(context.single[is[k]].inverseRadius) * m[k]));
+      store8(b, load8(b) + (opposite * f[k] + fill8(context.single[js[k]].inverseRadius) * m[k]));
+    } else {
+      store8(a, load8(a) + f[k]);
+      store8(b, load8(b) + opposite * f[k]);
     }
   }
 }
@@ -389,9 +442,10 @@ TSUBU_INLINE void scatterFour(const PassContext& context, const std::int32_t* is
 /// Adds the columns to the rows of both grains, in the order of the contacts.
 template <class Law, class Real>
 void scatter(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, StageIn<Real>& s) {
+  constexpr int some = together<Real>;
   int q = 0;
-  for (; q + 4 <= count; q += 4) scatterFour<Law>(context, is + q, js + q, 4, q, s);
-  if (q < count) scatterFour<Law>(context, is + q, js + q, count - q, q, s);
+  for (; q + some <= count; q += some) scatterSome<Law>(context, is + q, js + q, some, q, s);
+  if (q < count) scatterSome<Law>(context, is + q, js + q, count - q, q, s);
 }
 
 /// Pairs that touch at another distance than the sum of their radii: the sum is changed, and with it what the loop divides by it. The
@@ -417,62 +471,137 @@ void restoreArms(const double* touch, int count, StageIn<Real>& s) {
 }
 
 /// Asks for the rows of a chunk's partners; those of the first grains come in order, and the processor sees it.
-TSUBU_INLINE void askFor(const PassContext& context, const std::int32_t* js, std::int64_t count) {
+template <class Row, class Force>
+TSUBU_INLINE void askFor(const Row* rows, const Force* forces, const std::int32_t* js, std::int64_t count) {
   for (std::int64_t q = 0; q < count; ++q) {
-    const auto* const row = reinterpret_cast<const char*>(&context.rows[js[q]]);
+    const auto* const row = reinterpret_cast<const char*>(&rows[js[q]]);
     __builtin_prefetch(row, 0, 2);
-    __builtin_prefetch(row + sizeof(GrainRow) - 1, 0, 2);
-    __builtin_prefetch(&context.forces[js[q]], 1, 2);
-  }
-}
-
-/// The memory of a chunk as columns in the precision of the stage: in place, or copied to the bench and back.
-template <class Law, class Real>
-void fetchMemory(double* from, std::size_t stride, int count, StageIn<Real>& s, Real* (&columns)[mostMemory]) {
-  for (int c = 0; c < Law::stateSize; ++c) {
-    double* const column = from + static_cast<std::size_t>(c) * stride;
-    if constexpr (single<Real>) {
-      columns[c] = s.memory[c];
-      for (int q = 0; q < count; ++q) s.memory[c][q] = static_cast<Real>(column[q]);
-    } else {
-      columns[c] = column;
-    }
-  }
-}
-template <class Law, class Real>
-void returnMemory(double* to, std::size_t stride, int count, const StageIn<Real>& s) {
-  if constexpr (single<Real>) {
-    for (int c = 0; c < Law::stateSize; ++c)
-      for (int q = 0; q < count; ++q) to[static_cast<std::size_t>(c) * stride + static_cast<std::size_t>(q)] = s.memory[c][q];
+    if constexpr (sizeof(Row) > 64) __builtin_prefetch(row + sizeof(Row) - 1, 0, 2);
+    __builtin_prefetch(&forces[js[q]], 1, 2);
   }
 }
 
 template <class Law, bool oneClass, bool accounts, class Real>
-void passPairs(const PassContext& context, const PairRange& range, StageIn<Real>& stage, Accounts& sums) {
+void passPairs(const PassContext& context, const PairRangeIn<Real>& range, StageIn<Real>& stage, Accounts& sums) {
   for (std::int64_t first = 0; first < range.count; first += chunkSize) {
     const std::int64_t left = range.count - first;
     const int count = static_cast<int>(left < chunkSize ? left : chunkSize);
-    if (context.prefetch) askFor(context, range.j + first + count, left - count < chunkSize ? left - count : chunkSize);
+    if (context.prefetch) {
+      const std::int32_t* const next = range.j + first + count;
+      const std::int64_t more = left - count < chunkSize ? left - count : chunkSize;
+      if constexpr (single<Real>)
+        askFor(context.single, context.singleForces, next, more);
+      else
+        askFor(context.rows, context.forces, next, more);
+    }
     Real* memory[mostMemory] = {};
-    fetchMemory<Law>(range.memory + first, range.stride, count, stage, memory);
+    for (int c = 0; c < Law::stateSize; ++c) memory[c] = range.memory + first + static_cast<std::size_t>(c) * range.stride;
     gather<Law, oneClass>(context, range.i + first, range.j + first, count, stage);
     if (range.touch) touchSooner<Law>(range.touch + first, count, stage);
     compute<Law, oneClass, accounts, false>(context, count, stage, memory);
     if (range.touch) restoreArms<Law>(range.touch + first, count, stage);
-    returnMemory<Law>(range.memory + first, range.stride, count, stage);
     if constexpr (accounts) addAccounts<Law>(count, stage, context.observed, sums);
     if (context.observed) addDeepest(count, stage, sums);
     scatter<Law>(context, range.i + first, range.j + first, count, stage);
   }
 }
 
+/// Columns from the rows of four grains and what the wall does where they touch.
+template <class Law>
+TSUBU_INLINE void gatherFourOfWalls(const PassContext& context, const std::int32_t* grains, const WallContactRow* contacts, int q, Stage& s) {
+  const D4 signs{-1, -1, -1, 1};
+  D4 d[4], v[4], w[4], spin[4], mass{}, radius{};
+  for (int k = 0; k < 4; ++k) {
+    const GrainRow& row = context.rows[grains[k]];
+    const WallContactRow& contact = contacts[k];
+    d[k] = load4(&contact.dx);
+    v[k] = load4(&row.vx) + signs * load4(&contact.vx);
+    radius[k] = row.radius;
+    if constexpr (Law::turns || Law::readsRadius) w[k] = load4(&row.sx);
+    if constexpr (Law::turns) spin[k] = load4(&contact.wx);
+    if constexpr (Law::rolls) mass[k] = row.inverseMass;
+  }
+  transpose4(d[0], d[1], d[2], d[3]);
+  store4(s.dx + q, d[0]), store4(s.dy + q, d[1]), store4(s.dz + q, d[2]);
+  store4(s.radiusSum + q, radius);
+  if (context.observed) store4(s.smallerRadius + q, radius);
+  transpose4(v[0], v[1], v[2], v[3]);
+  store4(s.dvx + q, v[0]), store4(s.dvy + q, v[1]), store4(s.dvz + q, v[2]);
+  store4(s.inverseMassSum + q, v[3]);
+  if constexpr (Law::turns || Law::readsRadius) {
+    transpose4(w[0], w[1], w[2], w[3]);
+    if constexpr (Law::readsRadius) store4(s.inverseRadiusSum + q, w[3]);
+  }
+  if constexpr (Law::turns) {
+    store4(s.sx + q, w[0]), store4(s.sy + q, w[1]), store4(s.sz + q, w[2]);
+    transpose4(spin[0], spin[1], spin[2], spin[3]);
+    const D4 half = fill4(0.5), x = w[3] * w[0], y = w[3] * w[1], z = w[3] * w[2];
+    store4(s.ox + q, half * (x + spin[0])), store4(s.oy + q, half * (y + spin[1])), store4(s.oz + q, half * (z + spin[2]));
+    if constexpr (Law::rolls) {
+      store4(s.rx + q, x - spin[0]), store4(s.ry + q, y - spin[1]), store4(s.rz + q, z - spin[2]);
+      store4(s.inverseInertiaSum + q, mass * w[3] * w[3]);
+    }
+  }
+}
+
+/// Adds the columns of up to four contacts to the rows of their grains.
+template <class Law>
+TSUBU_INLINE void scatterFourOfWalls(const PassContext& context, const std::int32_t* grains, int count, int q, const Stage& s) {
+  D4 f[4] = {load4(s.fx + q), load4(s.fy + q), load4(s.fz + q), D4{}}, c[4], m[4];
+  transpose4(f[0], f[1], f[2], f[3]);
+  if constexpr (Law::turns) {
+    c[0] = load4(s.qx + q), c[1] = load4(s.qy + q), c[2] = load4(s.qz + q), c[3] = D4{};
+    transpose4(c[0], c[1], c[2], c[3]);
+  }
+  if constexpr (Law::rolls) {
+    m[0] = load4(s.mx + q), m[1] = load4(s.my + q), m[2] = load4(s.mz + q), m[3] = D4{};
+    transpose4(m[0], m[1], m[2], m[3]);
+  }
+  for (int k = 0; k < count; ++k) {
+    if (context.singleForces) {
+      D4 couple{};
+      if constexpr (Law::turns) couple = c[k];
+      if constexpr (Law::rolls) couple = couple - m[k] * fill4(context.rows[grains[k]].inverseRadius);
+      float* const row = &context.singleForces[grains[k]].fx;
+      store8(row, load8(row) + joined(as<float>(f[k]), as<float>(couple)));
+      continue;
+    }
+    ForceRow& row = context.forces[grains[k]];
+    add4(&row.fx, f[k]);
+    if constexpr (Law::turns) add4(&row.qx, c[k]);
+    if constexpr (Law::rolls) subtract4(&row.qx, m[k] * fill4(context.rows[grains[k]].inverseRadius));
+  }
+}
+
+/// The memory of wall contacts lies in rows, since contacts come and go one by one.
+template <class Law>
+void fetchWallMemory(const WallRange& range, Stage& s) {
+  for (int q = 0; q < range.count; ++q)
+    for (int c = 0; c < Law::stateSize; ++c) s.memory[c][q] = range.memory[range.at[q] * Law::stateSize + c];
+}
+template <class Law>
+void returnWallMemory(const WallRange& range, const Stage& s) {
+  for (int q = 0; q < range.count; ++q)
+    for (int c = 0; c < Law::stateSize; ++c) range.memory[range.at[q] * Law::stateSize + c] = s.memory[c][q];
+}
+
 template <class Law, bool oneClass, bool accounts>
-void passWalls(const PassContext& context, int count, Stage& stage, Accounts& sums) {
+void passWalls(const PassContext& context, const WallRange& range, Stage& stage, Accounts& sums) {
+  const int count = range.count, whole = count & ~3;
+  std::int32_t grains[4];
+  WallContactRow rest[4];
+  for (int k = 0; k < 4; ++k) grains[k] = range.grain[whole + k < count ? whole + k : count - 1], rest[k] = range.rows[whole + k < count ? whole + k : count - 1];
+  for (int q = 0; q < whole; q += 4) gatherFourOfWalls<Law>(context, range.grain + q, range.rows + q, q, stage);
+  if (whole < count) gatherFourOfWalls<Law>(context, grains, rest, whole, stage);
+  fetchWallMemory<Law>(range, stage);
   double* memory[mostMemory];
   for (int c = 0; c < mostMemory; ++c) memory[c] = stage.memory[c];
   compute<Law, oneClass, accounts, true>(context, count, stage, memory);
+  returnWallMemory<Law>(range, stage);
   if constexpr (accounts) addAccounts<Law>(count, stage, context.observed, sums);
   if (context.observed) addDeepest(count, stage, sums);
+  for (int q = 0; q < whole; q += 4) scatterFourOfWalls<Law>(context, range.grain + q, 4, q, stage);
+  if (whole < count) scatterFourOfWalls<Law>(context, grains, count - whole, whole, stage);
 }
 
 /// A loop for each law that has one: filled in by `Loop`, for each choice of classes and accounts.

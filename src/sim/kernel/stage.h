@@ -46,7 +46,7 @@ struct alignas(64) StageIn {
   // Out, when the ledger is kept: see Accounts.
   Column account[8];
 
-  // Memory of wall contacts, and of pairs in another precision than that of the lists, gathered here; other pairs' is read in place.
+  // Memory of wall contacts, gathered here; that of pairs is read in place.
   Column memory[mostMemory];
 };
 using Stage = StageIn<double>;

@@ -45,7 +45,7 @@ void PairLists::rememberContacts() {
   const auto components = static_cast<std::size_t>(stateSize_);
   const auto carries = [&](const SlabPairs& pairs, std::size_t k) {
     for (std::size_t c = 0; c < components; ++c)
-      if (pairs.memory[c * pairs.stride + k] != 0) return true;
+      if (pairs.memory.at(c, k) != 0) return true;
     return false;
   };
   std::size_t count = 0;
@@ -60,7 +60,7 @@ void PairLists::rememberContacts() {
       if (!carries(pairs, k)) continue;
       r.i.push_back(pairs.i[k]);
       r.j.push_back(pairs.grainOf(pairs.j[k]));
-      for (std::size_t c = 0; c < components; ++c) r.memory.push_back(pairs.memory[c * pairs.stride + k]);
+      for (std::size_t c = 0; c < components; ++c) r.memory.push_back(pairs.memory.at(c, k));
     }
     pairs = SlabPairs{};
   }
@@ -174,7 +174,9 @@ void PairLists::refreshImages(State& state, const SlabPairs& slab) {
     const Image& image = slab.images[k];
     GrainRow row = state.rows[static_cast<std::size_t>(image.owner)];
     row.x += image.shift.x(), row.y += image.shift.y(), row.z += image.shift.z();
-    state.rows[static_cast<std::size_t>(slab.firstImage) + k] = row;
+    const std::size_t at = static_cast<std::size_t>(slab.firstImage) + k;
+    state.rows[at] = row;
+    if (!state.single.empty()) state.toSingle(at);
   }
 }
 
@@ -194,8 +196,10 @@ void PairLists::build(State& state, const Slabs& slabs, const CellGrid& grid, do
   const int count = slabs.count();
   std::vector<FlatPairs> own(static_cast<std::size_t>(count)), before(static_cast<std::size_t>(count) + 1),
       across(static_cast<std::size_t>(count));
-  slabs_.assign(static_cast<std::size_t>(count), SlabPairs{});
-  rooms_.resize(static_cast<std::size_t>(team.threads()));
+  SlabPairs none;
+  none.memory = PairMemory(single_);
+  slabs_.assign(static_cast<std::size_t>(count), none);
+  rooms_.resize(static_cast<std::size_t>(team.threads()), Room{{}, {}, PairMemory(single_)});
   team.run(count, [&](int slab, int) {
     const auto s = static_cast<std::size_t>(slab);
     searchSlab(state, slabs, grid, slab, own[s], before[s]);
@@ -250,18 +254,18 @@ void PairLists::setTouch(const Slabs& slabs, std::int32_t a, std::int32_t b, dou
   if (hasImages()) set(std::max(a, b), std::min(a, b));
 }
 
-const double* PairLists::memoryOf(const Slabs& slabs, std::int32_t a, std::int32_t b, std::size_t& stride) const {
-  const double* memory = nullptr;
+bool PairLists::copyMemory(const Slabs& slabs, std::int32_t a, std::int32_t b, double* memory) const {
+  bool found = false;
   const auto find = [&](std::int32_t i, std::int32_t j) {
     const SlabPairs& pairs = slabs_[static_cast<std::size_t>(slabs.of(i))];
     visitPair(pairs, pairs.i, pairs.j, i, j, [&](std::size_t k) {
-      memory = pairs.memory.data() + k;
-      stride = pairs.stride;
+      for (std::size_t c = 0; c < static_cast<std::size_t>(stateSize_); ++c) memory[c] = pairs.memory.at(c, k);
+      found = true;
     });
   };
   find(std::min(a, b), std::max(a, b));
-  if (!memory && hasImages()) find(std::max(a, b), std::min(a, b));
-  return memory;
+  if (!found && hasImages()) find(std::max(a, b), std::min(a, b));
+  return found;
 }
 
 // What is remembered goes to the same pairs in the new lists: seen from the lower grain, also where the pair is seen from the higher one
@@ -279,7 +283,7 @@ void PairLists::handMemory(SlabPairs& pairs) const {
       if (r.j[k] != high) continue;
       std::copy_n(&r.memory[k * components], components, seen);
       if (i != low) turnRound(seen);
-      for (std::size_t c = 0; c < components; ++c) pairs.memory[c * pairs.stride + pair] = seen[c];
+      for (std::size_t c = 0; c < components; ++c) pairs.memory.set(c, pair, seen[c]);
     }
   }
 }
@@ -304,27 +308,16 @@ std::vector<std::vector<int>> PairLists::slabsInLists(const Slabs& slabs) const 
   return all;
 }
 
-namespace {
-
-// Gives a vector whose entries are all to be written a new size: with a little room to grow, where the standard library doubles it.
-template <class T>
-void fit(std::vector<T>& items, std::size_t count) {
-  if (count > items.capacity() || items.capacity() > 2 * count + 1024) {
-    items = std::vector<T>();
-    items.reserve(count + count / 16);
-  }
-  items.resize(count);
-}
-
-}  // namespace
-
 void PairLists::filterSlab(State& state, SlabPairs& pairs, double share, Room& room) const {
   pairs.stale = false;
   refreshImages(state, pairs);
   const std::size_t outer = pairs.outerI.size();
   if (room.near.size() < outer + 3) room.near.resize(outer + 3);
-  const std::int64_t found = kernels().grains->nearPairs(state.rows.data(), state.skin.data(), share, pairs.outerI.data(), pairs.outerJ.data(),
-                                                         static_cast<std::int64_t>(outer), room.near.data());
+  const GrainKernels& loops = *kernels().grains;
+  const auto nearAmong = [&](auto* loop, const auto& rows) {
+    return loop(rows.data(), state.skin.data(), share, pairs.outerI.data(), pairs.outerJ.data(), static_cast<std::int64_t>(outer), room.near.data());
+  };
+  const std::int64_t found = state.single.empty() ? nearAmong(loops.nearPairs, state.rows) : nearAmong(loops.nearSinglePairs, state.single);
   const auto begin = room.near.begin();
   auto end = begin + found;
   if (!pairs.outerTouch.empty())
@@ -332,7 +325,7 @@ void PairLists::filterSlab(State& state, SlabPairs& pairs, double share, Room& r
 
   const auto count = static_cast<std::size_t>(end - begin);
   pairs.outerIndex.swap(room.lastIndex);
-  pairs.memory.swap(room.lastMemory);
+  std::swap(pairs.memory, room.lastMemory);
   for (auto* column : {&pairs.outerIndex, &pairs.i, &pairs.j}) fit(*column, count);
   for (std::size_t k = 0; k < count; ++k) {
     const auto o = static_cast<std::size_t>(room.near[k]);
@@ -343,21 +336,26 @@ void PairLists::filterSlab(State& state, SlabPairs& pairs, double share, Room& r
   pairs.touch.clear();
   if (!pairs.outerTouch.empty())
     for (const std::int32_t o : pairs.outerIndex) pairs.touch.push_back(pairs.outerTouch[static_cast<std::size_t>(o)]);
-  const std::size_t strideBefore = std::exchange(pairs.stride, count);
   if (stateSize_ == 0) return;
-  fit(pairs.memory, count * static_cast<std::size_t>(stateSize_));
-  keepMemory(pairs, strideBefore, room);
+  pairs.memory.fit(count, static_cast<std::size_t>(stateSize_));
+  if (single_)
+    keepMemory<float>(pairs, room);
+  else
+    keepMemory<double>(pairs, room);
 }
 
-// Memory goes from the last inner list, of `before` pairs, to the present one. Both follow the order of the outer list.
-void PairLists::keepMemory(SlabPairs& pairs, std::size_t before, const Room& room) const {
-  const std::size_t count = pairs.outerIndex.size();
+// Memory goes from the last inner list to the present one. Both follow the order of the outer list.
+template <class Real>
+void PairLists::keepMemory(SlabPairs& pairs, const Room& room) const {
+  const std::size_t count = pairs.outerIndex.size(), before = room.lastMemory.stride();
+  Real* const now = pairs.memory.columns<Real>();
+  const Real* const last = room.lastMemory.columns<Real>();
   const auto components = static_cast<std::size_t>(stateSize_);
   std::size_t was = 0;
   for (std::size_t k = 0; k < count; ++k) {
     while (was < before && room.lastIndex[was] < pairs.outerIndex[k]) ++was;
     const bool known = was < before && room.lastIndex[was] == pairs.outerIndex[k];
-    for (std::size_t c = 0; c < components; ++c) pairs.memory[c * count + k] = known ? room.lastMemory[c * before + was] : 0;
+    for (std::size_t c = 0; c < components; ++c) now[c * count + k] = known ? last[c * before + was] : 0;
   }
 }
 

@@ -14,6 +14,7 @@
 #include "core/thread_team.h"
 #include "sim/laws/memory.h"
 #include "sim/neighbours/cell_grid.h"
+#include "sim/neighbours/pair_memory.h"
 #include "sim/neighbours/slabs.h"
 #include "sim/periodic.h"
 #include "sim/state.h"
@@ -30,8 +31,7 @@ struct Image {
 struct SlabPairs {
   std::vector<std::int32_t> outerI, outerJ;
   std::vector<std::int32_t> i, j, outerIndex;  ///< inner list, and where each pair is in the outer one
-  std::vector<double> memory;                  ///< component c of inner pair k at memory[c * stride + k]
-  std::size_t stride = 0;
+  PairMemory memory;                           ///< of the inner pairs
   std::vector<double> outerTouch, touch;       ///< m: see PairRange::touch, along each list; empty: none
   bool stale = false;                          ///< pairs have begun or ceased to touch: the inner list must be made anew
 
@@ -46,8 +46,9 @@ struct SlabPairs {
 
 class PairLists {
  public:
-  /// `stateSize` doubles of memory per contact; `odd`: those that change sign when the order of a pair turns round, as bits.
-  PairLists(int stateSize, unsigned odd) : stateSize_(stateSize), odd_(odd) {}
+  /// `stateSize` numbers of memory per contact; `odd`: those that change sign when the order of a pair turns round, as bits; `single`: in
+  /// single precision.
+  PairLists(int stateSize, unsigned odd, bool single = false) : stateSize_(stateSize), odd_(odd), single_(single) {}
 
   /// Notes which contacts carry memory before the grains are put into a new order, and lets the lists go.
   void rememberContacts();
@@ -71,8 +72,8 @@ class PairLists {
   /// never, then the inner list does without it.
   void setTouch(const Slabs& slabs, std::int32_t a, std::int32_t b, double distance);
 
-  /// Memory of a pair (any order) in the inner list, component c at [c * stride]; null when it is not there.
-  const double* memoryOf(const Slabs& slabs, std::int32_t a, std::int32_t b, std::size_t& stride) const;
+  /// Copies the memory of a pair (any order) in the inner list; false when it is not there.
+  bool copyMemory(const Slabs& slabs, std::int32_t a, std::int32_t b, double* memory) const;
 
   std::vector<SlabPairs>& slabs() { return slabs_; }
   const std::vector<SlabPairs>& slabs() const { return slabs_; }
@@ -88,7 +89,7 @@ class PairLists {
   /// What a thread needs while it makes an inner list: candidates, and the last inner list.
   struct Room {
     std::vector<std::int32_t> near, lastIndex;
-    std::vector<double> lastMemory;
+    PairMemory lastMemory;
   };
   using FlatPairs = std::vector<std::int32_t>;  // i0 j0 i1 j1 …
   void turnRound(double* memory) const;
@@ -99,10 +100,12 @@ class PairLists {
   void placeRemembered(std::size_t grains, const std::vector<std::int32_t>& newPlace);
   void handMemory(SlabPairs& pairs) const;
   void filterSlab(State& state, SlabPairs& pairs, double share, Room& room) const;
-  void keepMemory(SlabPairs& pairs, std::size_t before, const Room& room) const;
+  template <class Real>
+  void keepMemory(SlabPairs& pairs, const Room& room) const;
 
   int stateSize_;
   unsigned odd_;
+  bool single_;
   std::vector<SlabPairs> slabs_;
   Remembered remembered_;
   std::vector<Room> rooms_;  // one per thread

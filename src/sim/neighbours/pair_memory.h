@@ -1,0 +1,76 @@
+#pragma once
+// What listed contacts remember, in columns along a list: component c of pair k. In single numbers where contacts are computed in these.
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace tsubu::sim {
+
+/// Gives a vector whose entries are all to be written a new size: with a little room to grow, where the standard library doubles it.
+template <class T>
+void fit(std::vector<T>& items, std::size_t count) {
+  if (count > items.capacity() || items.capacity() > 2 * count + 1024) {
+    items = std::vector<T>();
+    items.reserve(count + count / 16);
+  }
+  items.resize(count);
+}
+
+class PairMemory {
+ public:
+  PairMemory() = default;
+  explicit PairMemory(bool single) : single_(single) {}
+
+  /// Room for these pairs; all of it is to be written.
+  void fit(std::size_t pairs, std::size_t components) {
+    stride_ = pairs;
+    if (single_)
+      sim::fit(narrow_, pairs * components);
+    else
+      sim::fit(wide_, pairs * components);
+  }
+  std::size_t stride() const { return stride_; }
+
+  double at(std::size_t component, std::size_t pair) const {
+    const std::size_t k = component * stride_ + pair;
+    return single_ ? static_cast<double>(narrow_[k]) : wide_[k];
+  }
+  void set(std::size_t component, std::size_t pair, double value) {
+    const std::size_t k = component * stride_ + pair;
+    if (single_)
+      narrow_[k] = static_cast<float>(value);
+    else
+      wide_[k] = value;
+  }
+
+  /// Component c of pair k at [c * stride() + k]; `Real` as the columns are.
+  template <class Real>
+  Real* columns() {
+    return columnsOf<Real>().data();
+  }
+  template <class Real>
+  const Real* columns() const {
+    return const_cast<PairMemory*>(this)->columnsOf<Real>().data();
+  }
+  /// The columns of doubles, one after the other.
+  std::vector<double>& wide() { return wide_; }
+  const std::vector<double>& wide() const { return wide_; }
+
+ private:
+  template <class Real>
+  std::vector<Real>& columnsOf() {
+    if constexpr (std::is_same_v<Real, float>)
+      return narrow_;
+    else
+      return wide_;
+  }
+
+  bool single_ = false;
+  std::size_t stride_ = 0;
+  std::vector<double> wide_;
+  std::vector<float> narrow_;
+};
+
+}  // namespace tsubu::sim
