@@ -56,7 +56,7 @@ void Simulation::Impl::finishChange() {
     if (!state.turns) continue;
     AngleRow& turned = state.turned[g];
     const double angle = rest * row.inverseRadius;
-    turned.x += angle * half.sx, turned.y += angle * half.sy, turned.z += angle * half.sz;
+    turned.x += static_cast<float>(angle * half.sx), turned.y += static_cast<float>(angle * half.sy), turned.z += static_cast<float>(angle * half.sz);
     row.sx = half.sx + ahead * (row.sx - half.sx), row.sy = half.sy + ahead * (row.sy - half.sy), row.sz = half.sz + ahead * (row.sz - half.sz);
   }
   state.allToSingle();

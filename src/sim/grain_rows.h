@@ -46,9 +46,9 @@ struct alignas(64) HalfStepRow {
   double sx, sy, sz, unused1;
 };
 
-/// An angle as a vector, rad.
-struct alignas(32) AngleRow {
-  double x, y, z, unused;
+/// An angle as a vector, rad. Small: single numbers tell it to 1e-7 of itself.
+struct alignas(16) AngleRow {
+  float x, y, z, unused;
 };
 
 /// A place, m.

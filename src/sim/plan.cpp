@@ -41,7 +41,8 @@ Plan Simulation::plan(const Model& model) {
   const bool periodic = std::find(model.periodic.begin(), model.periodic.end(), true) != model.periodic.end();
   item(periodic, "periodic domain");
   item(model.continuous, "continuous collisions");
-  if (model.precision == Precision::mixed) item(true, "contacts between grains in single precision");
+  const bool mixed = model.precision == Precision::mixed;
+  if (mixed) item(true, "contacts between grains in single precision");
   item(model.ledger, "energy ledger");
   item(model.contactForces, "diagnostics");
 
@@ -54,9 +55,10 @@ Plan Simulation::plan(const Model& model) {
   plan.passes.push_back(fmt::format("integrate: {}", scheme.name));
 
   plan.bytesPerGrain = sizeof(GrainRow) + sizeof(ForceRow) + (kept ? sizeof(HalfStepRow) : 0) + (previous ? sizeof(PlaceRow) : 0) + (grainsTurn(model) ? sizeof(Quat) + sizeof(AngleRow) : 0) +
-                       (model.heat ? 2 * sizeof(double) : 0) + sizeof(std::uint16_t) + sizeof(std::uint32_t) + (model.counters.empty() ? 0 : sizeof(std::uint32_t)) + sizeof(Vec3) + 2 * sizeof(double);
-  plan.bytesPerContact = static_cast<std::size_t>(traits.stateSize) * sizeof(double);
-  plan.bytesPerListedPair = 5 * sizeof(std::int32_t);
+                       (model.heat ? 2 * sizeof(double) : 0) + sizeof(std::uint16_t) + sizeof(std::uint32_t) + (model.counters.empty() ? 0 : sizeof(std::uint32_t)) + sizeof(Vec3) + 2 * sizeof(float);
+  plan.bytesPerGrain += mixed ? sizeof(SingleRow) + sizeof(SingleForceRow) : 0;
+  plan.bytesPerContact = static_cast<std::size_t>(traits.stateSize) * (mixed ? sizeof(float) : sizeof(double));
+  plan.bytesPerListedPair = (traits.stateSize > 0 ? 5 : 4) * sizeof(std::int32_t);
   return plan;
 }
 

@@ -14,6 +14,8 @@ namespace {
 // Neighbour lists: the steps that a skin is to last, and its bounds in terms of the smallest radius. Magnets reach farther by it, and lists of
 // them are longer. Then the share of it that belongs to the inner lists, and the bounds of that in terms of the radius.
 constexpr double skinSteps = 250, leastSkin = 0.1, mostSkin = 1.3, mostSkinOfMagnets = 0.6;
+// A little more than 1: what is rounded to a single number is then not too small.
+constexpr double roundedUp = 1 + 1e-6;
 constexpr double usualInnerShare = 0.1, mostInnerShare = 0.5, leastInner = 0.01, mostInner = 0.15;
 
 }  // namespace
@@ -73,7 +75,7 @@ void Simulation::Impl::giveSkins() {
     if (periods.along(axis)) rule.most = std::min(rule.most, 0.25 * periods.length(axis) - largest);
   rule.least = std::min(rule.least, rule.most);
   state.skin = chooseSkins(state.rows, rule);
-  largestSkin = state.skin.empty() ? 0 : *std::max_element(state.skin.begin(), state.skin.end());
+  largestSkin = state.skin.empty() ? 0.0 : static_cast<double>(*std::max_element(state.skin.begin(), state.skin.end()));
   innerShare = std::min({std::max(usualInnerShare, leastInner * smallest / rule.least), mostInnerShare, mostInner * smallest / largestSkin});
 }
 
@@ -135,7 +137,8 @@ void Simulation::Impl::rebuildLists() {
   state.perSkin2.resize(state.size());
   for (std::size_t g = 0; g < state.size(); ++g) {
     state.reference[g] = {state.rows[g].x, state.rows[g].y, state.rows[g].z};
-    state.perSkin2[g] = 1 / (state.skin[g] * state.skin[g]);
+    const double skin = state.skin[g];
+    state.perSkin2[g] = static_cast<float>(roundedUp / (skin * skin));
   }
   state.wrap.clear();
   for (const auto& pass : passes) pass->regroup(world(time(), model.timeStep), newPlace);

@@ -28,7 +28,7 @@ struct State {
   std::vector<std::uint32_t> id;
   std::vector<std::uint32_t> sides;      ///< bit c: on the positive side of counter c; empty without counters
   std::vector<Vec3> reference;           ///< positions at the last rebuild of the outer lists
-  std::vector<double> skin, perSkin2;    ///< m, 1/m²: see neighbours/skins.h
+  std::vector<float> skin, perSkin2;     ///< m, 1/m²: see neighbours/skins.h
   std::vector<Vec3> wrap;                ///< what the last rebuild added to the positions; empty unless the domain is periodic
 
   Integrator integrator = Integrator::symplecticEuler;

@@ -255,7 +255,7 @@ class Simulation::Impl::Sweep {
       mover.s += spin;
       AngleRow& turned = state_.turned[static_cast<std::size_t>(mover.grain)];
       const double angle = (dt_ - impact.time) * of.inverseRadius;
-      turned.x += angle * spin.x(), turned.y += angle * spin.y(), turned.z += angle * spin.z();
+      turned.x += static_cast<float>(angle * spin.x()), turned.y += static_cast<float>(angle * spin.y()), turned.z += static_cast<float>(angle * spin.z());
     };
     push(a, rowA, impulse);
     if (!wall) push(b, rowB, -impulse);

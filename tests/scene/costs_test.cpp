@@ -34,7 +34,7 @@ TEST(Costs, WhatIsNotNamedIsNeitherAllocatedNorRun) {
   EXPECT_EQ(plan.passes, (std::vector<std::string>{"neighbour lists (when grains have moved)", "pair contacts", "integrate: symplectic Euler"}));
   EXPECT_EQ(plan.bytesPerContact, 0u);
   // A row, a force, the id, the material, and where it was when lists were made.
-  EXPECT_EQ(plan.bytesPerGrain, 12 * 8u + 8 * 8u + 4u + 2u + 3 * 8u + 2 * 8u);  // the last: the skin
+  EXPECT_EQ(plan.bytesPerGrain, 12 * 8u + 8 * 8u + 4u + 2u + 3 * 8u + 2 * 4u);  // the last: the skin
   sim::Simulation simulation(std::move(built.model), 1);
   simulation.advance(5);
   Snapshot snapshot;
@@ -57,8 +57,9 @@ TEST(Costs, EachFeatureBringsItsOwn) {
                         {{"simulation.integrator=central_differences"}, 32, 0},
                         {{"simulation.ledger=true"}, 0, 0},
                         {{"simulation.continuous=true"}, 0, 0},
+                        {{"simulation.precision=mixed"}, 64 + 32, 0},
                         {{"contact.normal=hertz", "materials.glass.young_modulus=1e7", "materials.glass.poisson_ratio=0.2"}, 0, 0},
-                        {{"contact.tangential=viscous", "pairs.tangential_damping_rate=10"}, 32 + 32, 0},
+                        {{"contact.tangential=viscous", "pairs.tangential_damping_rate=10"}, 32 + 16, 0},
                         {{"contact.tangential=viscous", "pairs.tangential_damping_rate=10", "contact.rotation=false"}, 0, 0},
                         {{"fields.drag.viscosity=1e-3"}, 0, 1},
                         {{"fields.damping.rate=1"}, 0, 1},

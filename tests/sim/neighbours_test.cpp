@@ -78,7 +78,7 @@ TEST(PairLists, HoldEveryNearPairOnceInOrder) {
     state.rows = randomRows(random, shape, 1 + round % 90, ratio, round % 7 == 0 ? Vec3(1e6, 0, -1e6) : Vec3(Vec3::Zero()));
     // Every grain has a skin of its own: most of them thin ones.
     const double thickest = 1e-3 * random.uniform(0.005, 1), share = 0.4;
-    for (std::size_t g = 0; g < state.rows.size(); ++g) state.skin.push_back(thickest * std::pow(random.uniform(0.01, 1), 3));
+    for (std::size_t g = 0; g < state.rows.size(); ++g) state.skin.push_back(static_cast<float>(thickest * std::pow(random.uniform(0.01, 1), 3)));
     std::vector<std::int32_t> order;
     const Slabs slabs = sortIntoSlabs(state.rows, 2 * (1e-3 + thickest), order);
     state.reorder(order);
@@ -163,12 +163,12 @@ GrainRow rowAt(double x, double speed) { return {x, 0, 0, 1e-3, 0, 0, -speed, 1,
 TEST(Skins, FollowTheFastestGrainNearby) {
   const SkinRule rule{1e-3, 1e-4, 9e-4};
   // Beside a grain of 0.5 m/s one at rest may soon go as fast; far away none may.
-  const std::vector<double> skins = chooseSkins({rowAt(0, 0), rowAt(2e-3, 0.5), rowAt(0.1, 0), rowAt(0.2, 7), rowAt(0.3, 0.2)}, rule);
-  EXPECT_DOUBLE_EQ(skins[0], 5e-4);
-  EXPECT_DOUBLE_EQ(skins[1], 5e-4);
-  EXPECT_DOUBLE_EQ(skins[2], rule.least);
-  EXPECT_DOUBLE_EQ(skins[3], rule.most);
-  EXPECT_DOUBLE_EQ(skins[4], 2e-4);
+  const std::vector<float> skins = chooseSkins({rowAt(0, 0), rowAt(2e-3, 0.5), rowAt(0.1, 0), rowAt(0.2, 7), rowAt(0.3, 0.2)}, rule);
+  EXPECT_FLOAT_EQ(skins[0], 5e-4F);
+  EXPECT_FLOAT_EQ(skins[1], 5e-4F);
+  EXPECT_FLOAT_EQ(skins[2], 1e-4F);
+  EXPECT_FLOAT_EQ(skins[3], 9e-4F);
+  EXPECT_FLOAT_EQ(skins[4], 2e-4F);
   EXPECT_TRUE(chooseSkins({}, rule).empty());
 }
 

@@ -24,7 +24,8 @@ TEST(Orientation, TurnsByAnyAngleAsTheFormulaAndToTheSameBits) {
     before.push_back(Quat(w, x, y, z).normalized());
     const double a = any(), b = any(), c = any();
     const Vec3 angle = angles[static_cast<std::size_t>(n) % angles.size()] * Vec3(a, b, c).normalized();
-    turns.push_back({angle.x(), angle.y(), angle.z(), 0});
+    const Eigen::Vector3f row = angle.cast<float>();
+    turns.push_back({row.x(), row.y(), row.z(), 0});
   }
   std::vector<std::vector<Quat>> found;
   for (const Kernels& set : availableKernels()) {

@@ -77,7 +77,7 @@ TEST(PeriodicLists, HoldEveryNearPairOnceWithItsNearestImage) {
     state.rows = randomRows(random, box, 1 + round % 80, std::array{1.0, 3.0, 30.0}[static_cast<std::size_t>(round / 7 % 3)]);
     state.material.resize(state.rows.size());
     state.forces.resize(state.rows.size());
-    for (std::size_t g = 0; g < state.rows.size(); ++g) state.skin.push_back(thickest * random.uniform(0.1, 1));
+    for (std::size_t g = 0; g < state.rows.size(); ++g) state.skin.push_back(static_cast<float>(thickest * random.uniform(0.1, 1)));
     std::vector<std::int32_t> order, place(state.rows.size());
     const Slabs slabs = sortIntoSlabs(state.rows, 2 * (1e-3 + thickest), order);
     state.reorder(order);

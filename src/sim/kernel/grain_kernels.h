@@ -18,7 +18,7 @@ struct MoveContext {
   HalfStepRow* half;
   PlaceRow* previous;
   AngleRow* turned;
-  const double* perSkin2;  ///< 1/m²
+  const float* perSkin2;  ///< 1/m²
   V3 gravity;  ///< m/s²
   double dt;   ///< s
 };
@@ -55,7 +55,7 @@ using TurnKernel = void (*)(double* orientations, const AngleRow* angles, std::i
 /// Which of `count` pairs are nearer than the sum of their radii and this share of their skins (m): their places, in order. `kept` has room
 /// for `count` rounded up to a multiple of four. Returns how many.
 template <class Row>
-using NearKernel = std::int64_t (*)(const Row* rows, const double* skins, double share, const std::int32_t* i, const std::int32_t* j,
+using NearKernel = std::int64_t (*)(const Row* rows, const float* skins, double share, const std::int32_t* i, const std::int32_t* j,
                                     std::int64_t count, std::int32_t* kept);
 
 /// The loops for one instruction set.

@@ -74,7 +74,8 @@ TSUBU_INLINE D4 moveGrain(const MoveContext& context, const StepLanes& step, con
   }
   if constexpr (turns) {
     store4(&row.sx, s);
-    add4(&context.turned[g].x, (step.dt * fill4(row.inverseRadius)) * spin);
+    float* const turned = &context.turned[g].x;
+    store4(turned, load4(turned) + as<float>((step.dt * fill4(row.inverseRadius)) * spin));
   }
   return speed;
 }
@@ -99,6 +100,8 @@ struct MotionLanes {
   }
 };
 
+constexpr std::int32_t rowsAhead = 64;
+
 template <Integrator scheme, bool turns, bool mixed, bool bySingle>
 Motion moveGrains(const MoveContext& context, std::int32_t first, std::int32_t last) {
   const StepLanes step(context.dt);
@@ -107,6 +110,12 @@ Motion moveGrains(const MoveContext& context, std::int32_t first, std::int32_t l
   MotionLanes lanes;
   std::int32_t g = first;
   for (; g + 4 <= last; g += 4) {
+    if constexpr (bySingle) {
+      // Contacts have read the single rows alone, and these have not been seen in this step.
+      const auto* const rows = reinterpret_cast<const char*>(context.rows + g + rowsAhead);
+      for (std::size_t at = 0; at < 4 * sizeof(GrainRow); at += 64) __builtin_prefetch(rows + at, 1);
+      if constexpr (turns) __builtin_prefetch(context.turned + g + rowsAhead, 1);
+    }
     D4 square[4], scale;
     for (int k = 0; k < 4; ++k) {
       const D4 speed = moveGrain<scheme, turns, mixed, bySingle>(context, step, gravity, g + k);
@@ -114,7 +123,7 @@ Motion moveGrains(const MoveContext& context, std::int32_t first, std::int32_t l
       scale[k] = context.rows[g + k].inverseRadius;
     }
     transpose4(square[0], square[1], square[2], square[3]);
-    lanes.add(square[0] + square[1] + square[2], fill4(context.dt) * scale, load4(context.perSkin2 + g));
+    lanes.add(square[0] + square[1] + square[2], fill4(context.dt) * scale, as<double>(load4(context.perSkin2 + g)));
   }
   lanes.addTo(motion);
   for (; g < last; ++g) {
@@ -192,7 +201,7 @@ void turnGrains(double* orientations, const AngleRow* angles, std::int64_t count
     D4 a[4], o[4];
     for (int k = 0; k < 4; ++k) {
       const std::int64_t from = first + (k < few ? k : 0);
-      a[k] = load4(&angles[from].x);
+      a[k] = as<double>(load4(&angles[from].x));
       o[k] = load4(orientations + 4 * from);
     }
     transpose4(a[0], a[1], a[2], a[3]);
@@ -207,7 +216,7 @@ void turnGrains(double* orientations, const AngleRow* angles, std::int64_t count
 }
 
 template <class Row>
-std::int64_t nearPairs(const Row* rows, const double* skins, double share, const std::int32_t* is, const std::int32_t* js,
+std::int64_t nearPairs(const Row* rows, const float* skins, double share, const std::int32_t* is, const std::int32_t* js,
                        std::int64_t count, std::int32_t* kept) {
   const D4 signs{-1, -1, -1, 1};
   std::int64_t found = 0;
@@ -217,7 +226,7 @@ std::int64_t nearPairs(const Row* rows, const double* skins, double share, const
     for (int k = 0; k < 4; ++k) {
       const std::int64_t from = q + (k < few ? k : few - 1);
       x[k] = load4(&rows[is[from]].x) + signs * load4(&rows[js[from]].x);
-      skin[k] = skins[is[from]] + skins[js[from]];
+      skin[k] = static_cast<double>(skins[is[from]]) + static_cast<double>(skins[js[from]]);
     }
     transpose4(x[0], x[1], x[2], x[3]);
     const D4 reach = x[3] + fill4(share) * skin;

@@ -297,16 +297,49 @@ void observe(const typename Law::template PairIn<Real>& known, StepIn<Real> step
   }
 }
 
+/// Asks for the rows of the next chunk's partners; those of the first grains come in order, and the processor sees it. A share at a time,
+/// between the loops over a chunk: asked for all at once, they would be more than a processor can wait for while it goes on.
+struct Ahead {
+  static constexpr int shares = 6;
+
+  const PassContext& context;
+  const std::int32_t* next = nullptr;
+  const std::int32_t* end = nullptr;
+
+  template <class Real>
+  TSUBU_INLINE void ask() {
+    if (next == end) return;
+    const std::int32_t* const until = end - next > share ? next + share : end;
+    for (; next != until; ++next) {
+      if constexpr (single<Real>) {
+        __builtin_prefetch(&context.single[*next], 0, 2);
+        __builtin_prefetch(&context.singleForces[*next], 1, 2);
+      } else {
+        const auto* const row = reinterpret_cast<const char*>(&context.rows[*next]);
+        __builtin_prefetch(row, 0, 2);
+        __builtin_prefetch(row + sizeof(GrainRow) - 1, 0, 2);
+        __builtin_prefetch(&context.forces[*next], 1, 2);
+      }
+    }
+  }
+
+ private:
+  static constexpr int share = (chunkSize + shares - 1) / shares;
+};
+
 /// The law on every contact of the chunk. `memory` points to the columns of the contacts' memory.
 template <class Law, bool oneClass, bool accounts, bool weighted, class Real>
-void compute(const PassContext& context, int count, StageIn<Real>& s, Real* const* memory) {
+void compute(const PassContext& context, int count, StageIn<Real>& s, Real* const* memory, Ahead& ahead) {
   typename Law::template PairIn<Real> only{};
   if constexpr (oneClass)
     only = onlyPair<Law, Real>(context.pairs);
   else
     gatherConstants<Law>(context, count, s);
+  ahead.ask<Real>();
   findDirections<Law>(count, s);
+  ahead.ask<Real>();
   findSlip<Law, weighted>(count, s);
+  ahead.ask<Real>();
   if (!oneClass || Law::Normal::readsRootMass(only.normal))
     findRootMass(count, s);
   else
@@ -317,6 +350,7 @@ void compute(const PassContext& context, int count, StageIn<Real>& s, Real* cons
   if constexpr (Law::stateSize > 0) carryMemory<Law>(step.turning, count, s, columns);
   if constexpr (accounts)
     if (context.observed) observe<Law, oneClass, weighted>(only, step, count, s, columns);
+  ahead.ask<Real>();
   TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) {
     const ContactIn<Real> c = contactAt<Law>(s, q);
@@ -470,35 +504,23 @@ void restoreArms(const double* touch, int count, StageIn<Real>& s) {
   }
 }
 
-/// Asks for the rows of a chunk's partners; those of the first grains come in order, and the processor sees it.
-template <class Row, class Force>
-TSUBU_INLINE void askFor(const Row* rows, const Force* forces, const std::int32_t* js, std::int64_t count) {
-  for (std::int64_t q = 0; q < count; ++q) {
-    const auto* const row = reinterpret_cast<const char*>(&rows[js[q]]);
-    __builtin_prefetch(row, 0, 2);
-    if constexpr (sizeof(Row) > 64) __builtin_prefetch(row + sizeof(Row) - 1, 0, 2);
-    __builtin_prefetch(&forces[js[q]], 1, 2);
-  }
-}
-
 template <class Law, bool oneClass, bool accounts, class Real>
 void passPairs(const PassContext& context, const PairRangeIn<Real>& range, StageIn<Real>& stage, Accounts& sums) {
   for (std::int64_t first = 0; first < range.count; first += chunkSize) {
     const std::int64_t left = range.count - first;
     const int count = static_cast<int>(left < chunkSize ? left : chunkSize);
+    Ahead ahead{context};
     if (context.prefetch) {
-      const std::int32_t* const next = range.j + first + count;
-      const std::int64_t more = left - count < chunkSize ? left - count : chunkSize;
-      if constexpr (single<Real>)
-        askFor(context.single, context.singleForces, next, more);
-      else
-        askFor(context.rows, context.forces, next, more);
+      ahead.next = range.j + first + count;
+      ahead.end = ahead.next + (left - count < chunkSize ? left - count : chunkSize);
     }
+    ahead.ask<Real>();
     Real* memory[mostMemory] = {};
     for (int c = 0; c < Law::stateSize; ++c) memory[c] = range.memory + first + static_cast<std::size_t>(c) * range.stride;
     gather<Law, oneClass>(context, range.i + first, range.j + first, count, stage);
     if (range.touch) touchSooner<Law>(range.touch + first, count, stage);
-    compute<Law, oneClass, accounts, false>(context, count, stage, memory);
+    compute<Law, oneClass, accounts, false>(context, count, stage, memory, ahead);
+    ahead.ask<Real>();
     if (range.touch) restoreArms<Law>(range.touch + first, count, stage);
     if constexpr (accounts) addAccounts<Law>(count, stage, context.observed, sums);
     if (context.observed) addDeepest(count, stage, sums);
@@ -596,7 +618,8 @@ void passWalls(const PassContext& context, const WallRange& range, Stage& stage,
   fetchWallMemory<Law>(range, stage);
   double* memory[mostMemory];
   for (int c = 0; c < mostMemory; ++c) memory[c] = stage.memory[c];
-  compute<Law, oneClass, accounts, true>(context, count, stage, memory);
+  Ahead nobody{context};
+  compute<Law, oneClass, accounts, true>(context, count, stage, memory, nobody);
   returnWallMemory<Law>(range, stage);
   if constexpr (accounts) addAccounts<Law>(count, stage, context.observed, sums);
   if (context.observed) addDeepest(count, stage, sums);

@@ -23,7 +23,7 @@ int CellGrid::level(double radius) const {
   return level;
 }
 
-void CellGrid::build(const std::vector<GrainRow>& rows, double reach, const std::vector<double>& skins) {
+void CellGrid::build(const std::vector<GrainRow>& rows, double reach, const std::vector<float>& skins) {
   reach_ = reach;
   largest_ = 0;
   levels_.clear();

@@ -14,7 +14,7 @@ class CellGrid {
  public:
   /// \param reach  m: pairs are wanted whose surfaces are nearer than this
   /// \param skins  m: by which the radius of each grain counts as larger; empty: nothing
-  void build(const std::vector<GrainRow>& rows, double reach, const std::vector<double>& skins = {});
+  void build(const std::vector<GrainRow>& rows, double reach, const std::vector<float>& skins = {});
 
   /// Appends all grains j with |x_j − x| < r + r_j + s_j + reach, except `self`, in no particular order. Positions are those of `build`.
   void near(const Vec3& x, double radius, std::int32_t self, std::vector<std::int32_t>& found) const;

@@ -324,19 +324,20 @@ void PairLists::filterSlab(State& state, SlabPairs& pairs, double share, Room& r
     end = std::remove_if(begin, end, [&](std::int32_t o) { return pairs.outerTouch[static_cast<std::size_t>(o)] < 0; });
 
   const auto count = static_cast<std::size_t>(end - begin);
-  pairs.outerIndex.swap(room.lastIndex);
-  std::swap(pairs.memory, room.lastMemory);
-  for (auto* column : {&pairs.outerIndex, &pairs.i, &pairs.j}) fit(*column, count);
+  for (auto* column : {&pairs.i, &pairs.j}) fit(*column, count);
   for (std::size_t k = 0; k < count; ++k) {
     const auto o = static_cast<std::size_t>(room.near[k]);
-    pairs.outerIndex[k] = room.near[k];
     pairs.i[k] = pairs.outerI[o];
     pairs.j[k] = pairs.outerJ[o];
   }
   pairs.touch.clear();
   if (!pairs.outerTouch.empty())
-    for (const std::int32_t o : pairs.outerIndex) pairs.touch.push_back(pairs.outerTouch[static_cast<std::size_t>(o)]);
+    for (auto o = begin; o != end; ++o) pairs.touch.push_back(pairs.outerTouch[static_cast<std::size_t>(*o)]);
   if (stateSize_ == 0) return;
+  pairs.outerIndex.swap(room.lastIndex);
+  fit(pairs.outerIndex, count);
+  std::copy(begin, end, pairs.outerIndex.begin());
+  std::swap(pairs.memory, room.lastMemory);
   pairs.memory.fit(count, static_cast<std::size_t>(stateSize_));
   if (single_)
     keepMemory<float>(pairs, room);

@@ -30,7 +30,8 @@ struct Image {
 /// The pairs whose first grain lies in one slab, ordered by first and second row (i < j). The second may be an image.
 struct SlabPairs {
   std::vector<std::int32_t> outerI, outerJ;
-  std::vector<std::int32_t> i, j, outerIndex;  ///< inner list, and where each pair is in the outer one
+  std::vector<std::int32_t> i, j;              ///< inner list
+  std::vector<std::int32_t> outerIndex;        ///< where each of its pairs is in the outer list; empty when nothing is remembered
   PairMemory memory;                           ///< of the inner pairs
   std::vector<double> outerTouch, touch;       ///< m: see PairRange::touch, along each list; empty: none
   bool stale = false;                          ///< pairs have begun or ceased to touch: the inner list must be made anew

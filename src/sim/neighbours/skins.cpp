@@ -73,11 +73,11 @@ class SpeedMap {
 
 }  // namespace
 
-std::vector<double> chooseSkins(const std::vector<GrainRow>& rows, const SkinRule& rule) {
-  std::vector<double> skins(rows.size(), rule.least);
+std::vector<float> chooseSkins(const std::vector<GrainRow>& rows, const SkinRule& rule) {
+  std::vector<float> skins(rows.size(), static_cast<float>(rule.least));
   if (rows.empty() || !(rule.most > rule.least)) return skins;
   const SpeedMap speeds(rows);
-  for (std::size_t g = 0; g < rows.size(); ++g) skins[g] = std::clamp(rule.time * speeds.near(rows[g]), rule.least, rule.most);
+  for (std::size_t g = 0; g < rows.size(); ++g) skins[g] = static_cast<float>(std::clamp(rule.time * speeds.near(rows[g]), rule.least, rule.most));
   return skins;
 }
 

@@ -15,6 +15,6 @@ struct SkinRule {
 };
 
 /// The skin of each grain, m.
-std::vector<double> chooseSkins(const std::vector<GrainRow>& rows, const SkinRule& rule);
+std::vector<float> chooseSkins(const std::vector<GrainRow>& rows, const SkinRule& rule);
 
 }  // namespace tsubu::sim
