@@ -115,6 +115,7 @@ TEST(MixedPrecision, FollowsDoubleWhateverElseTheSceneHas) {
          s.model.domain = Box(Vec3(-8.8e-3, -8.8e-3, -1), Vec3(8.8e-3, 8.8e-3, 1));
          for (Grain& grain : s.model.grains) grain.velocity *= -1;  // to meet across the boundary
        }},
+      {"a wall under load", [](Scenario& s) { s.plane({0, 0, 9e-3}, {0, 0, -1}).body = WallBody{{0, 0, 1}, 2e-3, 0, true, 0, -0.3, 0}; }},
       {"damping", [](Scenario& s) { s.model.fields.damping.emplace().rate = 3; }},
       {"continuous", [](Scenario& s) {
          s.model.continuous = true;

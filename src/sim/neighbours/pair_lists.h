@@ -33,7 +33,7 @@ struct SlabPairs {
   std::vector<std::int32_t> i, j;              ///< inner list
   std::vector<std::int32_t> outerIndex;        ///< where each of its pairs is in the outer list; empty when nothing is remembered
   PairMemory memory;                           ///< of the inner pairs
-  std::vector<double> outerTouch, touch;       ///< m: see PairRange::touch, along each list; empty: none
+  std::vector<double> outerTouch, touch;       ///< m: see PairRangeIn::touch, along each list; empty: none
   bool stale = false;                          ///< pairs have begun or ceased to touch: the inner list must be made anew
 
   /// m: the distance of the centres at which pair k begins to touch, given the sum of its radii.

@@ -73,11 +73,21 @@ class SpeedMap {
 
 }  // namespace
 
+namespace {
+
+// Towards zero: the bounds are not to be exceeded.
+float roundedDown(double positive) {
+  const auto near = static_cast<float>(positive);
+  return static_cast<double>(near) > positive ? std::nextafter(near, 0.0F) : near;
+}
+
+}  // namespace
+
 std::vector<float> chooseSkins(const std::vector<GrainRow>& rows, const SkinRule& rule) {
-  std::vector<float> skins(rows.size(), static_cast<float>(rule.least));
+  std::vector<float> skins(rows.size(), roundedDown(rule.least));
   if (rows.empty() || !(rule.most > rule.least)) return skins;
   const SpeedMap speeds(rows);
-  for (std::size_t g = 0; g < rows.size(); ++g) skins[g] = static_cast<float>(std::clamp(rule.time * speeds.near(rows[g]), rule.least, rule.most));
+  for (std::size_t g = 0; g < rows.size(); ++g) skins[g] = roundedDown(std::clamp(rule.time * speeds.near(rows[g]), rule.least, rule.most));
   return skins;
 }
 
