@@ -14,9 +14,9 @@ namespace {
 // Neighbour lists: the steps that a skin is to last, and its bounds in terms of the smallest radius. Magnets reach farther by it, and lists of
 // them are longer. Then the share of it that belongs to the inner lists, and the bounds of that in terms of the radius.
 constexpr double skinSteps = 250, leastSkin = 0.1, mostSkin = 1.3, mostSkinOfMagnets = 0.6;
+constexpr double usualInnerShare = 0.1, mostInnerShare = 0.5, leastInner = 0.01, mostInner = 0.15;
 // A little more than 1: what is rounded to a single number is then not too small.
 constexpr double roundedUp = 1 + 1e-6;
-constexpr double usualInnerShare = 0.1, mostInnerShare = 0.5, leastInner = 0.01, mostInner = 0.15;
 
 }  // namespace
 
