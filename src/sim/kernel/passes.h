@@ -420,19 +420,23 @@ void addDeepest(int count, const StageIn<Real>& s, Accounts& accounts) {
   for (int q = 0; q < count; ++q) deepest[q & 7] = larger(deepest[q & 7], s.overlap[q] / s.smallerRadius[q]);
 }
 
+/// Forces, couples and moments of four contacts as rows.
+template <class Law>
+TSUBU_INLINE void forceRows(const Stage& s, int q, D4 (&f)[4], D4 (&c)[4], D4 (&m)[4]) {
+  const auto turn = [q](const double* x, const double* y, const double* z, D4 (&rows)[4]) __attribute__((always_inline)) {
+    rows[0] = load4(x + q), rows[1] = load4(y + q), rows[2] = load4(z + q), rows[3] = D4{};
+    transpose4(rows[0], rows[1], rows[2], rows[3]);
+  };
+  turn(s.fx, s.fy, s.fz, f);
+  if constexpr (Law::turns) turn(s.qx, s.qy, s.qz, c);
+  if constexpr (Law::rolls) turn(s.mx, s.my, s.mz, m);
+}
+
 /// Adds the columns of up to four contacts to the rows of both grains. T = −r Q + M, so a moment is −M/r in Q, which differs for the two.
 template <class Law>
 TSUBU_INLINE void scatterSome(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, int q, const Stage& s) {
-  D4 f[4] = {load4(s.fx + q), load4(s.fy + q), load4(s.fz + q), D4{}}, c[4], m[4];
-  transpose4(f[0], f[1], f[2], f[3]);
-  if constexpr (Law::turns) {
-    c[0] = load4(s.qx + q), c[1] = load4(s.qy + q), c[2] = load4(s.qz + q), c[3] = D4{};
-    transpose4(c[0], c[1], c[2], c[3]);
-  }
-  if constexpr (Law::rolls) {
-    m[0] = load4(s.mx + q), m[1] = load4(s.my + q), m[2] = load4(s.mz + q), m[3] = D4{};
-    transpose4(m[0], m[1], m[2], m[3]);
-  }
+  D4 f[4], c[4], m[4];
+  forceRows<Law>(s, q, f, c, m);
   for (int k = 0; k < count; ++k) {
     double* const a = &context.forces[is[k]].fx;
     double* const b = &context.forces[js[k]].fx;
@@ -569,16 +573,8 @@ TSUBU_INLINE void gatherFourOfWalls(const PassContext& context, const std::int32
 /// Adds the columns of up to four contacts to the rows of their grains.
 template <class Law>
 TSUBU_INLINE void scatterFourOfWalls(const PassContext& context, const std::int32_t* grains, int count, int q, const Stage& s) {
-  D4 f[4] = {load4(s.fx + q), load4(s.fy + q), load4(s.fz + q), D4{}}, c[4], m[4];
-  transpose4(f[0], f[1], f[2], f[3]);
-  if constexpr (Law::turns) {
-    c[0] = load4(s.qx + q), c[1] = load4(s.qy + q), c[2] = load4(s.qz + q), c[3] = D4{};
-    transpose4(c[0], c[1], c[2], c[3]);
-  }
-  if constexpr (Law::rolls) {
-    m[0] = load4(s.mx + q), m[1] = load4(s.my + q), m[2] = load4(s.mz + q), m[3] = D4{};
-    transpose4(m[0], m[1], m[2], m[3]);
-  }
+  D4 f[4], c[4], m[4];
+  forceRows<Law>(s, q, f, c, m);
   for (int k = 0; k < count; ++k) {
     if (context.singleForces) {
       D4 couple{};
