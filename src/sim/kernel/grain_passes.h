@@ -20,18 +20,23 @@ struct StepLanes {
         perStep{1 / step, 1 / step, 1 / step, 0} {}
 };
 
-/// What acts on a grain, F and Q; taken away from where it is.
-template <bool bySingle>
+/// What acts on a grain, F and, where grains turn, Q; taken away from where it is.
+template <bool turns, bool bySingle>
 TSUBU_INLINE void takeForces(const MoveContext& context, std::int32_t g, D4& f, D4& q) {
   if constexpr (bySingle) {
     SingleForceRow& force = context.singleForces[g];
     const F8 both = load8(&force.fx);
-    f = as<double>(lowHalf(both)), q = as<double>(highHalf(both));
+    f = as<double>(lowHalf(both));
+    if constexpr (turns) q = as<double>(highHalf(both));
     store8(&force.fx, F8{});
   } else {
     ForceRow& force = context.forces[g];
-    f = load4(&force.fx), q = load4(&force.qx);
-    store4(&force.fx, D4{}), store4(&force.qx, D4{});
+    f = load4(&force.fx);
+    store4(&force.fx, D4{});
+    if constexpr (turns) {
+      q = load4(&force.qx);
+      store4(&force.qx, D4{});
+    }
   }
 }
 
@@ -40,8 +45,8 @@ template <Integrator scheme, bool turns, bool mixed, bool bySingle>
 TSUBU_INLINE D4 moveGrain(const MoveContext& context, const StepLanes& step, const D4& gravity, std::int32_t g) {
   GrainRow& row = context.rows[g];
   const D4 x = load4(&row.x), rowV = load4(&row.vx), rowS = load4(&row.sx);
-  D4 f, q;
-  takeForces<bySingle>(context, g, f, q);
+  D4 f, q{};
+  takeForces<turns, bySingle>(context, g, f, q);
   const D4 a = fill4(row.inverseMass) * f + gravity;
   const D4 b = fill4(-2.5 * row.inverseMass) * q;
   constexpr bool verlet = scheme == Integrator::velocityVerlet;
