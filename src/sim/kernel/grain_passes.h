@@ -179,7 +179,8 @@ TSUBU_INLINE Quat4 rotationBySmall(const D4& x, const D4& y, const D4& z) {
 }
 
 /// Larger angles are halved until they are small, and the rotation is squared as often: each lane for itself.
-TSUBU_INLINE Quat4 rotationBy(D4 x, D4 y, D4 z) {
+TSUBU_INLINE Quat4 rotationBy(const D4& angleX, const D4& angleY, const D4& angleZ) {
+  D4 x = angleX, y = angleY, z = angleZ;
   constexpr double small2 = 0.04;  // rad²
   constexpr int mostHalvings = 64;
   D4 halvings{};
