@@ -12,11 +12,6 @@ namespace {
 constexpr std::array integrators{Integrator::symplecticEuler, Integrator::velocityVerlet};
 const char* nameOf(Integrator integrator) { return integrator == Integrator::velocityVerlet ? "velocity Verlet" : "symplectic Euler"; }
 
-Vec3 randomVec(Random& random, double size) {
-  const double x = random.uniform(-size, size), y = random.uniform(-size, size), z = random.uniform(-size, size);
-  return {x, y, z};
-}
-
 /// A cloud of grains of very unequal size on a loose lattice that falls in upon itself, spinning.
 Scenario cloud(Integrator integrator, const std::string& rolling, std::uint64_t seed) {
   Scenario s;

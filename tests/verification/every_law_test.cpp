@@ -11,11 +11,6 @@
 namespace tsubu::sim::test {
 namespace {
 
-Vec3 randomVec(Random& random, double size) {
-  const double x = random.uniform(-size, size), y = random.uniform(-size, size), z = random.uniform(-size, size);
-  return {x, y, z};
-}
-
 Model cloud(const LawFunctions& law, bool severalMaterials) {
   Model m;
   m.contact = {std::string(law.names[0]), std::string(law.names[1]), std::string(law.names[2]), false, std::string(law.names[3])};

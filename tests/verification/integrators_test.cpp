@@ -15,11 +15,6 @@ namespace {
 constexpr std::array all{Integrator::explicitEuler,      Integrator::symplecticEuler, Integrator::leapfrog,
                          Integrator::centralDifferences, Integrator::velocityVerlet,  Integrator::rungeKutta};
 
-Vec3 randomVec(Random& random, double size) {
-  const double x = random.uniform(-size, size), y = random.uniform(-size, size), z = random.uniform(-size, size);
-  return {x, y, z};
-}
-
 /// A cloud of unequal grains that falls in upon itself, spinning: contacts begin, stick, slide, roll and end.
 Scenario cloud(Integrator integrator, const std::string& rolling) {
   Scenario s;

@@ -15,6 +15,12 @@ namespace tsubu::sim::test {
 
 inline constexpr double pi = std::numbers::pi;
 
+/// Three numbers in [−size, size].
+inline Vec3 randomVec(Random& random, double size) {
+  const double x = random.uniform(-size, size), y = random.uniform(-size, size), z = random.uniform(-size, size);
+  return {x, y, z};
+}
+
 /// A model of grains with masses and radii of one's choice. Every grain is of a material of its own, and all pairs are alike.
 class Scenario {
  public:

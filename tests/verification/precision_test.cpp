@@ -48,10 +48,7 @@ TEST(MixedPrecision, CollisionsEndAsInDouble) {
     s.pair[Property::friction] = random.uniform(0.05, 0.8);
     s.pair[Property::rollingFriction] = 0.1;
     const double r1 = random.uniform(1e-3, 3e-3), r2 = random.uniform(1e-3, 3e-3);
-    const auto any = [&](double size) {
-      const double x = random.uniform(-size, size), y = random.uniform(-size, size), z = random.uniform(-size, size);
-      return Vec3(x, y, z);
-    };
+    const auto any = [&](double size) { return randomVec(random, size); };
     s.grain(random.uniform(1e-5, 9e-5), r1, Vec3::Zero(), any(0.2), any(100));
     s.grain(random.uniform(1e-5, 9e-5), r2, {r1 + r2 + 1e-6, 0, 0}, Vec3(-0.5, 0, 0) + any(0.2), any(100));
     for (Material& material : s.model.materials) {
@@ -84,10 +81,7 @@ Scenario crowd(int seed) {
   s.pair[Property::friction] = 0.4;
   s.pair[Property::rollingFriction] = 0.1;
   Random random(static_cast<std::uint64_t>(seed), 3);
-  const auto any = [&](double size) {
-    const double x = random.uniform(-size, size), y = random.uniform(-size, size), z = random.uniform(-size, size);
-    return Vec3(x, y, z);
-  };
+  const auto any = [&](double size) { return randomVec(random, size); };
   for (int n = 0; n < 48; ++n) {
     const Vec3 place = 4.4e-3 * Vec3(n % 4 - 1.5, n / 4 % 4 - 1.5, n / 16 - 1) + any(2e-5);
     s.grain(random.uniform(2e-5, 6e-5), random.uniform(1.5e-3, 2.1e-3), place, -80 * place + any(0.2), any(40));
