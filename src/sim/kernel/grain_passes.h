@@ -1,6 +1,6 @@
 #pragma once
 // The loops over grains and over listed pairs that know no law: moving grains, and finding the pairs that are near. Row by row, four
-// doubles at once; the fourth goes along: what a row keeps there (radius, 1/m, 1/r) is multiplied by a step of 0 and stays.
+// or eight doubles at once; the fourth goes along: what a row keeps there (radius, 1/m, 1/r) is multiplied by a step of 0 and stays.
 
 #include "sim/kernel/grain_kernels.h"
 #include "sim/kernel/lanes.h"
@@ -8,81 +8,116 @@
 namespace tsubu::sim {
 namespace {
 
-/// The first three of `a` with the fourth of `b`.
+/// What goes by the same rules: velocity and r ω of a grain, side by side, or its velocity alone where grains do not turn.
+template <bool turns>
+using Pace = std::conditional_t<turns, D8, D4>;
+
+TSUBU_INLINE D4 linearOf(const D4& pace) { return pace; }
+TSUBU_INLINE D4 linearOf(const D8& pace) { return lowHalf(pace); }
+
+template <bool turns>
+TSUBU_INLINE Pace<turns> loadPace(const double* from) {
+  if constexpr (turns)
+    return load8(from);
+  else
+    return load4(from);
+}
+TSUBU_INLINE void storePace(double* to, const D4& pace) { store4(to, pace); }
+TSUBU_INLINE void storePace(double* to, const D8& pace) { store8(to, pace); }
+
+/// The first three of `a` with the fourth of `b`, of each four.
 TSUBU_INLINE D4 withFourth(const D4& a, const D4& b) { return __builtin_shufflevector(a, b, 0, 1, 2, 7); }
+TSUBU_INLINE D8 withFourth(const D8& a, const D8& b) { return joined(withFourth(lowHalf(a), lowHalf(b)), withFourth(highHalf(a), highHalf(b))); }
 
-/// Step lengths by which rows are multiplied: nothing for the fourth.
-struct StepLanes {
-  D4 dt, half, squared, perStep;
+/// Three numbers for velocities and three for spins; nothing for the fourth.
+template <bool turns>
+TSUBU_INLINE Pace<turns> lanesOf(V3 linear, double surface) {
+  const D4 low{linear.x, linear.y, linear.z, 0};
+  if constexpr (turns)
+    return joined(low, D4{surface, surface, surface, 0});
+  else
+    return low;
+}
 
-  explicit StepLanes(double step)
-      : dt{step, step, step, 0}, half{0.5 * step, 0.5 * step, 0.5 * step, 0}, squared{step * step, step * step, step * step, 0},
-        perStep{1 / step, 1 / step, 1 / step, 0} {}
+/// What all grains have in common. Step lengths multiply rows: nothing for the fourth.
+template <bool turns>
+struct MoveLanes {
+  Pace<turns> dt, half, gravity, perMass;
+  D4 step, squared, perStep;
+
+  explicit MoveLanes(const MoveContext& context)
+      : dt(lanesOf<turns>({context.dt, context.dt, context.dt}, context.dt)), half(dt * 0.5),
+        gravity(lanesOf<turns>(context.gravity, -0.0)),  // of zeros the one that changes no sign
+        perMass(lanesOf<turns>({1, 1, 1}, -2.5)),        // T = −r Q, and r/I = 2.5/(m r)
+        step(linearOf(dt)), squared(step * step), perStep{1 / context.dt, 1 / context.dt, 1 / context.dt, 0} {}
 };
 
 /// What acts on a grain, F and, where grains turn, Q; taken away from where it is.
 template <bool turns, bool bySingle>
-TSUBU_INLINE void takeForces(const MoveContext& context, std::int32_t g, D4& f, D4& q) {
+TSUBU_INLINE Pace<turns> takeForces(const MoveContext& context, std::int32_t g) {
   if constexpr (bySingle) {
-    SingleForceRow& force = context.singleForces[g];
-    const F8 both = load8(&force.fx);
-    f = as<double>(lowHalf(both));
-    if constexpr (turns) q = as<double>(highHalf(both));
-    store8(&force.fx, F8{});
+    float* const from = &context.singleForces[g].fx;
+    Pace<turns> taken;
+    if constexpr (turns)
+      taken = toDouble(load8(from));
+    else
+      taken = as<double>(load4(from));
+    store8(from, F8{});
+    return taken;
   } else {
-    ForceRow& force = context.forces[g];
-    f = load4(&force.fx);
-    store4(&force.fx, D4{});
-    if constexpr (turns) {
-      q = load4(&force.qx);
-      store4(&force.qx, D4{});
-    }
+    double* const from = &context.forces[g].fx;
+    const Pace<turns> taken = loadPace<turns>(from);
+    storePace(from, Pace<turns>{});
+    return taken;
   }
 }
 
-/// Returns the velocity by which the grain has gone.
+/// Returns the squares of the velocity by which the grain has gone, and 1/r.
 template <Integrator scheme, bool turns, bool mixed, bool bySingle>
-TSUBU_INLINE D4 moveGrain(const MoveContext& context, const StepLanes& step, const D4& gravity, std::int32_t g) {
+TSUBU_INLINE D4 moveGrain(const MoveContext& context, const MoveLanes<turns>& lanes, std::int32_t g) {
   GrainRow& row = context.rows[g];
-  const D4 x = load4(&row.x), rowV = load4(&row.vx), rowS = load4(&row.sx);
-  D4 f, q{};
-  takeForces<turns, bySingle>(context, g, f, q);
-  const D4 a = fill4(row.inverseMass) * f + gravity;
-  const D4 b = fill4(-2.5 * row.inverseMass) * q;
-  constexpr bool verlet = scheme == Integrator::velocityVerlet;
-  const D4 before = verlet ? load4(&context.half[g].vx) : rowV, spinBefore = verlet ? load4(&context.half[g].sx) : rowS;
-  D4 u = before + step.dt * a;
-  const D4 w = turns ? spinBefore + step.dt * b : spinBefore;
-  const bool old = scheme == Integrator::explicitEuler;
-  D4 speed = old ? before : u, next = x + step.dt * speed;
+  const D4 x = load4(&row.x);
+  const Pace<turns> rowPace = loadPace<turns>(&row.vx), forces = takeForces<turns, bySingle>(context, g);
+  const Pace<turns> a = (lanes.perMass * row.inverseMass) * forces + lanes.gravity;
+  constexpr bool verlet = scheme == Integrator::velocityVerlet, old = scheme == Integrator::explicitEuler;
+  const Pace<turns> before = verlet ? loadPace<turns>(&context.half[g].vx) : rowPace;
+  Pace<turns> u = before + lanes.dt * a;
+  D4 speed = linearOf(old ? before : u), next = x + lanes.step * speed;
   if constexpr (scheme == Integrator::centralDifferences) {
-    next = 2 * x - load4(&context.previous[g].x) + step.squared * a;
+    next = 2 * x - load4(&context.previous[g].x) + lanes.squared * linearOf(a);
     store4(&context.previous[g].x, x);
-    speed = step.perStep * (next - x);
-    u = withFourth(speed, rowV);
+    speed = lanes.perStep * (next - x);
     next = withFourth(next, x);
+    const D4 v = withFourth(speed, linearOf(rowPace));
+    if constexpr (turns)
+      u = joined(v, highHalf(u));
+    else
+      u = v;
   }
-  const D4 spin = old ? spinBefore : w;
-  D4 v = u, s = w;
+  Pace<turns> now = u;
   if constexpr (verlet) {
-    store4(&context.half[g].vx, u);
-    store4(&context.half[g].sx, w);
-    v = withFourth(u + step.half * a, rowV);
-    s = withFourth(turns ? w + step.half * b : w, rowS);
+    storePace(&context.half[g].vx, u);
+    now = withFourth(u + lanes.half * a, rowPace);
   }
   store4(&row.x, next);
-  store4(&row.vx, v);
+  storePace(&row.vx, now);
   if constexpr (mixed) {
     SingleRow& single = context.single[g];
     store4(&single.x, next);
-    store8(&single.vx, joined(as<float>(v), as<float>(s)));
+    if constexpr (turns)
+      store8(&single.vx, toSingle(now));
+    else
+      store4(&single.vx, as<float>(now));
   }
+  D4 perRadius;
   if constexpr (turns) {
-    store4(&row.sx, s);
+    perRadius = highHalf(rowPace);
     float* const turned = &context.turned[g].x;
-    store4(turned, load4(turned) + as<float>((step.dt * fill4(row.inverseRadius)) * spin));
+    store4(turned, load4(turned) + as<float>((lanes.step * fill4(row.inverseRadius)) * highHalf(old ? before : u)));
+  } else {
+    perRadius = load4(&row.sx);
   }
-  return speed;
+  return withFourth(speed * speed, perRadius);
 }
 
 /// The largest of a Motion, four grains side by side: one after the other, each would wait for the one before.
@@ -108,11 +143,11 @@ struct MotionLanes {
 constexpr std::int32_t rowsAhead = 64;
 
 template <Integrator scheme, bool turns, bool mixed, bool bySingle>
-Motion moveGrains(const MoveContext& context, std::int32_t first, std::int32_t last) {
-  const StepLanes step(context.dt);
-  const D4 gravity{context.gravity.x, context.gravity.y, context.gravity.z, 0};
+Motion moveGrains(const MoveContext& given, std::int32_t first, std::int32_t last) {
+  const MoveContext context = given;  // a copy that no store can change
+  const MoveLanes<turns> lanes(context);
   Motion motion;
-  MotionLanes lanes;
+  MotionLanes largest;
   std::int32_t g = first;
   for (; g + 4 <= last; g += 4) {
     if constexpr (bySingle) {
@@ -121,19 +156,15 @@ Motion moveGrains(const MoveContext& context, std::int32_t first, std::int32_t l
       for (std::size_t at = 0; at < 4 * sizeof(GrainRow); at += 64) __builtin_prefetch(rows + at, 1);
       if constexpr (turns) __builtin_prefetch(context.turned + g + rowsAhead, 1);
     }
-    D4 square[4], scale;
-    for (int k = 0; k < 4; ++k) {
-      const D4 speed = moveGrain<scheme, turns, mixed, bySingle>(context, step, gravity, g + k);
-      square[k] = speed * speed;
-      scale[k] = context.rows[g + k].inverseRadius;
-    }
-    transpose4(square[0], square[1], square[2], square[3]);
-    lanes.add(square[0] + square[1] + square[2], fill4(context.dt) * scale, as<double>(load4(context.perSkin2 + g)));
+    D4 way[4];
+    for (int k = 0; k < 4; ++k) way[k] = moveGrain<scheme, turns, mixed, bySingle>(context, lanes, g + k);
+    transpose4(way[0], way[1], way[2], way[3]);
+    largest.add(way[0] + way[1] + way[2], fill4(context.dt) * way[3], as<double>(load4(context.perSkin2 + g)));
   }
-  lanes.addTo(motion);
+  largest.addTo(motion);
   for (; g < last; ++g) {
-    const D4 speed = moveGrain<scheme, turns, mixed, bySingle>(context, step, gravity, g), square = speed * speed;
-    motion.add(square[0] + square[1] + square[2], context.dt * context.rows[g].inverseRadius, context.perSkin2[g]);
+    const D4 way = moveGrain<scheme, turns, mixed, bySingle>(context, lanes, g);
+    motion.add(way[0] + way[1] + way[2], context.dt * way[3], context.perSkin2[g]);
   }
   return motion;
 }
