@@ -236,7 +236,7 @@ void WallPass::evaluateSlab(int slabNumber, const PassContext& context, WallKern
   for (std::size_t w = 0; w < walls_->size(); ++w) {
     if (places_[w].plane) {
       findNearPlane(slab, w, context, near);
-      for (const std::int32_t n : near) evaluatePlane(slab, places_[w], slab.groups[static_cast<std::size_t>(n)], slab.ways[static_cast<std::size_t>(n)], context, batch);
+      evaluatePlane(slab, w, near, context, batch);
     } else {
       findNearMesh(slab, w, context, near);
       for (const std::int32_t n : near) evaluateGroup(slab, slab.groups[static_cast<std::size_t>(n)], slab.ways[static_cast<std::size_t>(n)], context, batch);
@@ -342,25 +342,31 @@ void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, WallWay& way, co
   }
 }
 
-// An unbounded plane has one feature and needs no frame of its own; it is awake while it touches.
-void WallPass::evaluatePlane(SlabWalls& slab, const WallPlace& place, WallGroup& group, WallWay& way, const PassContext& context, Batch& batch) {
-  const GrainRow& row = context.rows[group.grain];
-  const Vec3 centre = centreOf(row);
-  const double height = place.plane->signedDistance(centre);
-  if (height < 0) {
-    const std::uint32_t feature = 0;
-    const Vec3 local = place.toLocal(centre);
-    if ((*walls_)[group.wall].surface->crossedFace(way.centre, local, {&feature, 1}) != Surface::none) slab.tunnelled.push_back(group.grain);
-    way.centre = local;
-  }
-  group.awake = height < row.radius;
-  const bool touched = slab.candidates[static_cast<std::size_t>(group.first)].touching;
-  if (group.awake) {
-    if (!touched) note(slab, group.first, place.plane->normal, 1);  // a plane keeps its normal
-    put(slab, place, group, group.first, std::max(height, leastDistance * row.radius) * place.plane->normal,
-        place.turns ? place.twist.at(centre - height * place.plane->normal) : place.twist.velocity, context, batch);
-  } else if (touched) {
-    putEnded(slab, place, group, group.first, context, batch);
+// An unbounded plane has one feature and needs no frame of its own; a group is awake while its grain touches.
+void WallPass::evaluatePlane(SlabWalls& slab, std::size_t wall, const std::vector<std::int32_t>& near, const PassContext& context, Batch& batch) {
+  const WallPlace place = places_[wall];  // a copy that no store can change
+  const Vec3 normal = place.plane->normal;
+  for (const std::int32_t n : near) {
+    WallGroup& group = slab.groups[static_cast<std::size_t>(n)];
+    const GrainRow& row = context.rows[group.grain];
+    const Vec3 centre = centreOf(row);
+    const double height = place.plane->signedDistance(centre);
+    if (height < 0) {
+      WallWay& way = slab.ways[static_cast<std::size_t>(n)];
+      const std::uint32_t feature = 0;
+      const Vec3 local = place.toLocal(centre);
+      if ((*walls_)[wall].surface->crossedFace(way.centre, local, {&feature, 1}) != Surface::none) slab.tunnelled.push_back(group.grain);
+      way.centre = local;
+    }
+    const bool touched = group.awake != 0;
+    group.awake = height < row.radius;
+    if (group.awake) {
+      if (!touched) note(slab, group.first, normal, 1);  // a plane keeps its normal
+      put(slab, place, group, group.first, std::max(height, leastDistance * row.radius) * normal,
+          place.turns ? place.twist.at(centre - height * normal) : place.twist.velocity, context, batch);
+    } else if (touched) {
+      putEnded(slab, place, group, group.first, context, batch);
+    }
   }
 }
 

@@ -118,9 +118,9 @@ class WallPass {
                 const std::vector<Old>& old, SlabWalls& slab) const;
   void findNearPlane(const SlabWalls& slab, std::size_t wall, const PassContext& context, std::vector<std::int32_t>& found) const;
   void findNearMesh(const SlabWalls& slab, std::size_t wall, const PassContext& context, std::vector<std::int32_t>& found) const;
-  void evaluatePlane(SlabWalls& slab, const WallPlace& place, WallGroup& group, WallWay& way, const PassContext& context, Batch& batch);
+  void evaluatePlane(SlabWalls& slab, std::size_t wall, const std::vector<std::int32_t>& near, const PassContext& context, Batch& batch);
   static void note(SlabWalls& slab, std::int32_t candidateIndex, const Vec3& normal, double weight);
-  void put(SlabWalls& slab, const WallPlace& place, const WallGroup& group, std::int32_t candidateIndex, const Vec3& d, const Vec3& velocity,
+  TSUBU_INLINE void put(SlabWalls& slab, const WallPlace& place, const WallGroup& group, std::int32_t candidateIndex, const Vec3& d, const Vec3& velocity,
            const PassContext& context, Batch& batch);
   void putEnded(SlabWalls& slab, const WallPlace& place, const WallGroup& group, std::int32_t candidateIndex, const PassContext& context, Batch& batch);
   void evaluateGroup(SlabWalls& slab, WallGroup& group, WallWay& way, const PassContext& context, Batch& batch);
