@@ -36,11 +36,12 @@ void CellGrid::build(const std::vector<GrainRow>& rows, double reach, const std:
   std::vector<std::vector<std::int32_t>> members(static_cast<std::size_t>(level(largest_)) + 1);
   for (std::size_t g = 0; g < rows.size(); ++g) members[static_cast<std::size_t>(level(radii[g]))].push_back(static_cast<std::int32_t>(g));
   levels_.resize(members.size());
+  entry_.resize(rows.size());
   for (std::size_t l = 0; l < members.size(); ++l) fill(levels_[l], members[l], rows, radii);
 }
 
 void CellGrid::fill(Level& level, const std::vector<std::int32_t>& members, const std::vector<GrainRow>& rows,
-                    const std::vector<double>& radii) const {
+                    const std::vector<double>& radii) {
   if (members.empty()) return;
   Box box;
   for (const std::int32_t g : members) {
@@ -76,11 +77,12 @@ void CellGrid::fill(Level& level, const std::vector<std::int32_t>& members, cons
     const auto e = static_cast<std::size_t>(next[static_cast<std::size_t>(cell[m])]++), g = static_cast<std::size_t>(members[m]);
     level.balls[e] = {rows[g].x, rows[g].y, rows[g].z, radii[g]};
     level.numbers[e] = members[m];
+    entry_[g] = static_cast<std::int32_t>(e);
   }
 }
 
 template <class Visit>
-void CellGrid::visitRuns(const Level& level, const Vec3& x, double radius, Visit&& visit) const {
+void CellGrid::visitRuns(const Level& level, const Vec3& x, double radius, std::int32_t start, Visit&& visit) const {
   if (level.numbers.empty()) return;
   // The centres of this level's grains within reach: a cube around x of this half edge; a little more, for what rounding does to cells.
   const double half = (radius + level.largest + reach_) * (1 + 1e-9), perEdge = 1 / level.edge;
@@ -94,16 +96,17 @@ void CellGrid::visitRuns(const Level& level, const Vec3& x, double radius, Visit
   for (auto cz = z0; cz <= z1; ++cz) {
     for (auto cy = y0; cy <= y1; ++cy) {
       const std::int64_t line = (cz * level.ny + cy) * level.nx;
-      visit(level.start[static_cast<std::size_t>(line + x0)], level.start[static_cast<std::size_t>(line + x1 + 1)]);
+      const std::int32_t last = level.start[static_cast<std::size_t>(line + x1 + 1)];
+      if (last > start) visit(std::max(start, level.start[static_cast<std::size_t>(line + x0)]), last);
     }
   }
 }
 
-// Those of the level with numbers beyond `beyond`. Without a branch: which are near cannot be foreseen.
-std::size_t CellGrid::nearIn(const Level& level, const Vec3& x, double radius, std::int32_t beyond, std::int32_t self,
-                             std::vector<std::int32_t>& found, std::size_t count) const {
+// Without a branch: which are near cannot be foreseen.
+std::size_t CellGrid::nearIn(const Level& level, const Vec3& x, double radius, std::int32_t start, std::int32_t self, std::vector<std::int32_t>& found,
+                             std::size_t count) const {
   const double x0 = x.x(), x1 = x.y(), x2 = x.z(), own = radius + reach_;
-  visitRuns(level, x, radius, [&](std::int32_t first, std::int32_t last) {
+  visitRuns(level, x, radius, start, [&](std::int32_t first, std::int32_t last) {
     const auto length = static_cast<std::size_t>(last - first);
     if (found.size() < count + length) found.resize(2 * (count + length));
     const Ball* const balls = level.balls.data();
@@ -113,8 +116,7 @@ std::size_t CellGrid::nearIn(const Level& level, const Vec3& x, double radius, s
       const Ball& ball = balls[e];
       const double dx = x0 - ball.x, dy = x1 - ball.y, dz = x2 - ball.z, cut = own + ball.radius;
       to[count] = numbers[e];
-      count += static_cast<std::size_t>(dx * dx + dy * dy + dz * dz < cut * cut) & static_cast<std::size_t>(numbers[e] > beyond) &
-               static_cast<std::size_t>(numbers[e] != self);
+      count += static_cast<std::size_t>(dx * dx + dy * dy + dz * dz < cut * cut) & static_cast<std::size_t>(numbers[e] != self);
     }
   });
   return count;
@@ -122,14 +124,14 @@ std::size_t CellGrid::nearIn(const Level& level, const Vec3& x, double radius, s
 
 void CellGrid::near(const Vec3& x, double radius, std::int32_t self, std::vector<std::int32_t>& found) const {
   std::size_t count = found.size();
-  for (const Level& level : levels_) count = nearIn(level, x, radius, -1, self, found, count);
+  for (const Level& level : levels_) count = nearIn(level, x, radius, 0, self, found, count);
   found.resize(count);
 }
 
 std::size_t CellGrid::partners(const Vec3& x, double radius, std::int32_t self, std::vector<std::int32_t>& found) const {
   const auto own = static_cast<std::size_t>(level(radius));
-  std::size_t count = 0;
-  for (std::size_t l = own; l < levels_.size(); ++l) count = nearIn(levels_[l], x, radius, l == own ? self : -1, self, found, count);
+  std::size_t count = nearIn(levels_[own], x, radius, entry_[static_cast<std::size_t>(self)] + 1, self, found, 0);
+  for (std::size_t l = own + 1; l < levels_.size(); ++l) count = nearIn(levels_[l], x, radius, 0, self, found, count);
   return count;
 }
 

@@ -19,9 +19,9 @@ class CellGrid {
   /// Appends all grains j with |x_j − x| < r + r_j + s_j + reach, except `self`, in no particular order. Positions are those of `build`.
   void near(const Vec3& x, double radius, std::int32_t self, std::vector<std::int32_t>& found) const;
 
-  /// Writes to the beginning of `found` those of them that make a pair with grain `self` (at x, `radius` with its skin) not yet seen from the
-  /// other side: in the level of its radius those with higher numbers, in coarser levels all, in finer ones none. Returns how many; `found`
-  /// grows as needed.
+  /// Writes to the beginning of `found` those of them that make a pair with grain `self` (at x, where it lay in `build`, `radius` with its skin) not
+  /// yet seen from the other side: in the level of its radius those behind it in the order of the cells, in coarser levels all, in finer ones
+  /// none. Returns how many; `found` grows as needed.
   std::size_t partners(const Vec3& x, double radius, std::int32_t self, std::vector<std::int32_t>& found) const;
 
   /// m: how far from a point a sphere of this radius may meet a listed partner.
@@ -43,17 +43,19 @@ class CellGrid {
     std::vector<Ball> balls;           // the entries, and their numbers
     std::vector<std::int32_t> numbers;
   };
-  void fill(Level& level, const std::vector<std::int32_t>& members, const std::vector<GrainRow>& rows, const std::vector<double>& radii) const;
-  /// Calls visit(first, last) for runs of entries; the grains of the level near x are among them.
+  void fill(Level& level, const std::vector<std::int32_t>& members, const std::vector<GrainRow>& rows, const std::vector<double>& radii);
+  /// Calls visit(first, last) for runs of entries from `start` on; the grains of the level near x are among them.
   template <class Visit>
-  void visitRuns(const Level& level, const Vec3& x, double radius, Visit&& visit) const;
-  std::size_t nearIn(const Level& level, const Vec3& x, double radius, std::int32_t beyond, std::int32_t self, std::vector<std::int32_t>& found,
+  void visitRuns(const Level& level, const Vec3& x, double radius, std::int32_t start, Visit&& visit) const;
+  /// Appends to `count` grains that are found already those from entry `start` on, except `self`.
+  std::size_t nearIn(const Level& level, const Vec3& x, double radius, std::int32_t start, std::int32_t self, std::vector<std::int32_t>& found,
                      std::size_t count) const;
 
   double reach_ = 0;
   double largest_ = 0;  // radius, skin included
   double finest_ = 0;   // largest radius of level 0
   std::vector<Level> levels_;
+  std::vector<std::int32_t> entry_;  // of each grain, in its level
 };
 
 }  // namespace tsubu::sim
