@@ -193,9 +193,10 @@ template <class Law>
 TSUBU_INLINE void scatterSome(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, int q, const Stage& s) {
   D4 f[4], c[4], m[4];
   forceRows<Law>(s, q, f, c, m);
+  ForceRow* const forces = context.forces;  // a copy that no store can change
   for (int k = 0; k < count; ++k) {
-    double* const a = &context.forces[is[k]].fx;
-    double* const b = &context.forces[js[k]].fx;
+    double* const a = &forces[is[k]].fx;
+    double* const b = &forces[js[k]].fx;
     add4(a, f[k]);
     subtract4(b, f[k]);
     if constexpr (Law::rolls) {
@@ -220,9 +221,10 @@ TSUBU_INLINE void scatterSome(const PassContext& context, const std::int32_t* is
     m[4] = load8(s.mx + q), m[5] = load8(s.my + q), m[6] = load8(s.mz + q);
     transpose8(m);
   }
+  SingleForceRow* const forces = context.singleForces;  // a copy that no store can change
   for (int k = 0; k < count; ++k) {
-    float* const a = &context.singleForces[is[k]].fx;
-    float* const b = &context.singleForces[js[k]].fx;
+    float* const a = &forces[is[k]].fx;
+    float* const b = &forces[js[k]].fx;
     if constexpr (Law::rolls) {
       store8(a, load8(a) + (f[k] - fill8(context.single[is[k]].inverseRadius) * m[k]));
       store8(b, load8(b) + (opposite * f[k] + fill8(context.single[js[k]].inverseRadius) * m[k]));
