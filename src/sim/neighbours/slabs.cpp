@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace tsubu::sim {
 
@@ -41,7 +42,9 @@ Slabs sortIntoSlabs(const std::vector<GrainRow>& rows, double reach, std::vector
   const Vec3 extent = box.sizes();
   int along = 0;
   extent.maxCoeff(&along);
-  const int across = (along + 1) % 3, last = (along + 2) % 3;
+  // Grains follow each other along the shortest side: the partners of one are then not far from it in the order.
+  int across = (along + 1) % 3, last = (along + 2) % 3;
+  if (extent[last] > extent[across]) std::swap(across, last);
   // A little more than the reach: rounding must not put a pair into slabs that are not neighbours.
   const double least = reach * (1 + 1e-9);
   const int count = static_cast<int>(std::clamp(std::floor(extent[along] / least), 1.0, static_cast<double>(mostSlabs)));
