@@ -34,7 +34,7 @@ struct Snapshot {
   std::vector<Vec3> position;            ///< m
   std::vector<Vec3> velocity;            ///< m/s
   std::vector<Vec3> angularVelocity;     ///< rad/s; empty when rotation is not modelled
-  std::vector<Quat> orientation;         ///< empty when rotation is not modelled
+  std::vector<Quat> orientation;         ///< empty when nobody asked for it, or nothing turns
   std::vector<double> temperature;       ///< K; empty when heat is not modelled
   std::vector<double> load;              ///< N: sum of the normal contact forces on the grain; empty unless asked for
 

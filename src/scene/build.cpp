@@ -157,6 +157,7 @@ sim::Model buildModel(const Scene& scene) {
   model.skin = s.skin.value_or(0);
   model.ledger = s.ledger;
   if (!scene.bonds.empty() && scene.show.bonds) model.showBonds = brokenFor(scene);
+  model.orientation = scene.colours.pattern != render::Pattern::none;
   model.load = scene.colours.by == render::ColourBy::force;
   model.showForces = scene.show.forces != render::ShownForces::none;
   const auto ofForces = [](const Observable& o) { return std::holds_alternative<PeakForce>(o.kind); };

@@ -54,9 +54,11 @@ void Simulation::Impl::finishChange() {
     row.x += rest * half.vx, row.y += rest * half.vy, row.z += rest * half.vz;
     row.vx = half.vx + ahead * (row.vx - half.vx), row.vy = half.vy + ahead * (row.vy - half.vy), row.vz = half.vz + ahead * (row.vz - half.vz);
     if (!state.turns) continue;
-    AngleRow& turned = state.turned[g];
-    const double angle = rest * row.inverseRadius;
-    turned.x += static_cast<float>(angle * half.sx), turned.y += static_cast<float>(angle * half.sy), turned.z += static_cast<float>(angle * half.sz);
+    if (state.keepsOrientation) {
+      AngleRow& turned = state.turned[g];
+      const double angle = rest * row.inverseRadius;
+      turned.x += static_cast<float>(angle * half.sx), turned.y += static_cast<float>(angle * half.sy), turned.z += static_cast<float>(angle * half.sz);
+    }
     row.sx = half.sx + ahead * (row.sx - half.sx), row.sy = half.sy + ahead * (row.sy - half.sy), row.sz = half.sz + ahead * (row.sz - half.sz);
   }
   state.allToSingle();

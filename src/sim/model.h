@@ -110,6 +110,7 @@ struct Model {
   double skin = 0;                       ///< m, reach of the outer neighbour list beyond contact; 0: chosen from the radii
   bool ledger = true;                    ///< keep the energy ledger
   std::optional<double> showBonds;       ///< snapshots carry the bonds, and broken ones for so long (s); absent: no bonds
+  bool orientation = true;               ///< snapshots tell how grains that turn are turned; lasting magnets keep it in any case
   bool load = false;                     ///< snapshots carry the sum of contact forces on each grain
   bool showForces = false;               ///< snapshots carry the forces of contacts; needs `contactForces`
   bool contactForces = false;            ///< an Instant may be asked for: contact forces are noted when somebody looks

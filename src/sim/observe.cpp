@@ -274,10 +274,8 @@ void Simulation::Impl::fill(Snapshot& snapshot) {
     snapshot.radius.push_back(row.radius);
     snapshot.position.push_back(periods.wrapped(positionOf(row)));
     snapshot.velocity.push_back(now.v);
-    if (state.turns) {
-      snapshot.angularVelocity.push_back(now.s * row.inverseRadius);
-      snapshot.orientation.push_back(orientationNow(state, g));
-    }
+    if (state.turns) snapshot.angularVelocity.push_back(now.s * row.inverseRadius);
+    if (state.keepsOrientation) snapshot.orientation.push_back(orientationNow(state, g));
     if (model.heat) snapshot.temperature.push_back(state.temperature[g]);
     if (model.load) snapshot.load.push_back(load[g]);
   }
@@ -333,8 +331,7 @@ std::uint64_t Simulation::Impl::stateHash() {
       for (const double value : {state.half[g].vx, state.half[g].vy, state.half[g].vz}) hash.add(value);
     if (!state.previous.empty())
       for (const double value : {state.previous[g].x, state.previous[g].y, state.previous[g].z}) hash.add(value);
-    if (state.turns)
-    {
+    if (state.keepsOrientation) {
       const Quat orientation = orientationNow(state, g);
       for (const double value : orientation.coeffs()) hash.add(value);
     }

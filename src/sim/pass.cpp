@@ -16,6 +16,8 @@ bool grainsTurn(const Model& model) {
   return lawFunctions(lawIndex(model.contact)).traits.turns || !model.bonds.empty() || hasPermanentMagnets(model);
 }
 
+bool keepsOrientation(const Model& model) { return grainsTurn(model) && (model.orientation || hasPermanentMagnets(model)); }
+
 void checkRotation(const Model& model) {
   if (model.contact.rotation) return;
   const auto refuse = [](const char* what, const char* hint) { throw Error(ErrorKind::scene, fmt::format("Rotation is switched off, and {}.", what), hint); };

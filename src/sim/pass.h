@@ -75,6 +75,8 @@ class ForcePass {
 
 /// Do grains turn? Without friction only bonds and lasting magnets ask for it.
 bool grainsTurn(const Model& model);
+/// Is it kept how far they have turned?
+bool keepsOrientation(const Model& model);
 
 /// Throws Error(scene) when grains are held from turning and something of the model is about turning.
 void checkRotation(const Model& model);

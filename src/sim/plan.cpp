@@ -25,7 +25,8 @@ Plan Simulation::plan(const Model& model) {
   const bool rolls = model.contact.rolling != "none", twists = model.contact.twisting != "none";
   item(rolls, rolls ? fmt::format("rolling resistance: {}", model.contact.rolling) : "rolling resistance");
   item(twists, twists ? fmt::format("twisting resistance: {}", model.contact.twisting) : "twisting resistance");
-  item(grainsTurn(model), traits.turns && !model.contact.rotation ? "rotation (held)" : "rotation and orientation");
+  item(grainsTurn(model), traits.turns && !model.contact.rotation ? "rotation (held)" : "rotation");
+  item(keepsOrientation(model), "orientation");
   item(!model.bonds.empty(), "bonds");
   item(strongestGravity(model.gravity, model.fields.gravity) > 0, model.fields.gravity.empty() ? "gravity" : "gravity that changes");
   item(model.fields.drag.has_value(), "drag");
@@ -54,7 +55,7 @@ Plan Simulation::plan(const Model& model) {
   for (const auto& pass : makePasses(model)) plan.passes.push_back(pass->name());
   plan.passes.push_back(fmt::format("integrate: {}", scheme.name));
 
-  plan.bytesPerGrain = sizeof(GrainRow) + sizeof(ForceRow) + (kept ? sizeof(HalfStepRow) : 0) + (previous ? sizeof(PlaceRow) : 0) + (grainsTurn(model) ? sizeof(Quat) + sizeof(AngleRow) : 0) +
+  plan.bytesPerGrain = sizeof(GrainRow) + sizeof(ForceRow) + (kept ? sizeof(HalfStepRow) : 0) + (previous ? sizeof(PlaceRow) : 0) + (keepsOrientation(model) ? sizeof(Quat) + sizeof(AngleRow) : 0) +
                        (model.heat ? 2 * sizeof(double) : 0) + sizeof(std::uint16_t) + sizeof(std::uint32_t) + (model.counters.empty() ? 0 : sizeof(std::uint32_t)) + sizeof(Vec3) + 2 * sizeof(float);
   plan.bytesPerGrain += mixed ? sizeof(SingleRow) + sizeof(SingleForceRow) : 0;
   plan.bytesPerContact = static_cast<std::size_t>(traits.stateSize) * (mixed ? sizeof(float) : sizeof(double));

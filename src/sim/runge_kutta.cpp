@@ -166,7 +166,7 @@ void RungeKutta::startSlab(const State& state, std::int32_t first, std::int32_t 
     const auto k = static_cast<std::size_t>(g);
     const GrainRow& row = state.rows[k];
     grains_[k] = GrainStages{};
-    grains_[k].start = {row.position(), row.velocity(), row.surfaceSpin(), state.turns ? state.orientation[k] : Quat::Identity()};
+    grains_[k].start = {row.position(), row.velocity(), row.surfaceSpin(), state.keepsOrientation ? state.orientation[k] : Quat::Identity()};
   }
 }
 
@@ -176,7 +176,7 @@ void RungeKutta::collectGrain(int stage, State& state, std::size_t k, V3 gravity
   const Acceleration a = accelerationOf(row, state.forces[k], gravity);
   state.forces[k] = ForceRow{};
   Moving &rate = grains_[k].rate, &sum = grains_[k].sum;
-  if (state.turns) {
+  if (state.keepsOrientation) {
     // q̇ = ½ ω q, at the orientation of this stage: where the last rate has led.
     const Quat q(grains_[k].start.q.coeffs() + place[static_cast<std::size_t>(stage)] * dt * rate.q.coeffs());
     const V3 w = row.inverseRadius * row.surfaceSpin();
@@ -232,7 +232,7 @@ Motion RungeKutta::finish(State& state, PairLists& pairs, WallPass& walls, doubl
     const GrainStages& grain = grains_[k];
     GrainRow& row = state.rows[k];
     setRow(row, grain.start.x + dt * grain.sum.x, grain.start.v + dt * grain.sum.v, grain.start.s + dt * grain.sum.s);
-    if (state.turns) state.orientation[k] = Quat(grain.start.q.coeffs() + dt * grain.sum.q.coeffs()).normalized();
+    if (state.keepsOrientation) state.orientation[k] = Quat(grain.start.q.coeffs() + dt * grain.sum.q.coeffs()).normalized();
     motion.add(norm2(grain.sum.x), dt * row.inverseRadius, state.perSkin2[k]);
   }
   walls.slabs() = wallsAtStart_;

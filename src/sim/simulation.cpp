@@ -105,6 +105,7 @@ void Simulation::Impl::prepareState() {
   if (model.counters.size() > 32) throw Error(ErrorKind::scene, fmt::format("There are {} counters, more than 32.", model.counters.size()));
   state.integrator = model.integrator;
   state.turns = grainsTurn(model);
+  state.keepsOrientation = keepsOrientation(model);
   state.mixed = model.precision == Precision::mixed;
   state.conducts = model.heat;
   if (hasPermanentMagnets(model)) turnInterval = 1;

@@ -17,7 +17,7 @@ void State::add(const Grain& grain, double density, const Vec3& gravity, double 
                   1 / grain.radius});
   if (integrator == Integrator::velocityVerlet) half.push_back({before.x(), before.y(), before.z(), 0, s.x(), s.y(), s.z(), 0});
   if (integrator == Integrator::centralDifferences) previous.push_back({x.x() - dt * before.x(), x.y() - dt * before.y(), x.z() - dt * before.z(), 0});
-  if (turns) {
+  if (keepsOrientation) {
     orientation.push_back(grain.orientation.normalized());
     turned.push_back({});
   }
@@ -32,7 +32,7 @@ void State::add(const Grain& grain, double density, const Vec3& gravity, double 
 void State::reserve(std::size_t grains) {
   rows.reserve(grains);
   if (integrator == Integrator::velocityVerlet) half.reserve(grains);
-  if (turns) {
+  if (keepsOrientation) {
     orientation.reserve(grains);
     turned.reserve(grains);
   }

@@ -20,7 +20,7 @@ struct State {
   std::vector<SingleForceRow> singleForces;  ///< and what these contacts have done, beside `forces`
   std::vector<HalfStepRow> half;         ///< velocity Verlet
   std::vector<PlaceRow> previous;        ///< central differences: positions one step ago
-  std::vector<Quat> orientation;         ///< empty unless grains turn; as it was when `turned` was last zero
+  std::vector<Quat> orientation;         ///< empty unless it is kept; as it was when `turned` was last zero
   std::vector<AngleRow> turned;          ///< ∫ω dt since then: orientations only show, and are brought up to date every few steps
   std::vector<std::uint16_t> material;
   std::vector<double> temperature;       ///< K; empty unless heat is modelled
@@ -34,6 +34,7 @@ struct State {
   Integrator integrator = Integrator::symplecticEuler;
   bool mixed = false;  ///< precision
   bool turns = false;
+  bool keepsOrientation = false;
   bool conducts = false;
   std::uint32_t nextId = 0;
 

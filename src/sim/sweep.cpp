@@ -253,6 +253,7 @@ class Simulation::Impl::Sweep {
       if (!state_.turns) return;
       const Vec3 spin = (-2.5 * of.inverseMass) * couple;
       mover.s += spin;
+      if (!state_.keepsOrientation) return;
       AngleRow& turned = state_.turned[static_cast<std::size_t>(mover.grain)];
       const double angle = (dt_ - impact.time) * of.inverseRadius;
       turned.x += static_cast<float>(angle * spin.x()), turned.y += static_cast<float>(angle * spin.y()), turned.z += static_cast<float>(angle * spin.z());

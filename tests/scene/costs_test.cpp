@@ -59,7 +59,9 @@ TEST(Costs, EachFeatureBringsItsOwn) {
                         {{"simulation.continuous=true"}, 0, 0},
                         {{"simulation.precision=mixed"}, 64 + 32, 0},
                         {{"contact.normal=hertz", "materials.glass.young_modulus=1e7", "materials.glass.poisson_ratio=0.2"}, 0, 0},
-                        {{"contact.tangential=viscous", "pairs.tangential_damping_rate=10"}, 32 + 16, 0},
+                        {{"contact.tangential=viscous", "pairs.tangential_damping_rate=10"}, 0, 0},
+                        {{"contact.tangential=viscous", "pairs.tangential_damping_rate=10", "colours.pattern=stripes"}, 32 + 16, 0},
+                        {{"colours.pattern=stripes"}, 0, 0},
                         {{"contact.tangential=viscous", "pairs.tangential_damping_rate=10", "contact.rotation=false"}, 0, 0},
                         {{"fields.drag.viscosity=1e-3"}, 0, 1},
                         {{"fields.damping.rate=1"}, 0, 1},
@@ -69,6 +71,38 @@ TEST(Costs, EachFeatureBringsItsOwn) {
     EXPECT_EQ(plan.bytesPerGrain, base.bytesPerGrain + c.perGrain) << c.overrides[0];
     EXPECT_EQ(plan.passes.size(), base.passes.size() + c.passes) << c.overrides[0];
     EXPECT_EQ(plan.bytesPerContact, 0u) << c.overrides[0];
+  }
+}
+
+// How far grains have turned only shows: kept or not, they go the same way.
+TEST(Costs, PaintedGrainsGoTheSameWay) {
+  const auto after = [](Overrides how, const char* pattern) {
+    how.insert(how.end(), {"contact.tangential=spring", "grains.bed.count=400", std::string("colours.pattern=") + pattern,
+                           "grains.bed.spin=[3, -5, 7]", "grains.bed.velocity=[0.1, 0.05, -0.5]"});
+    how.insert(how.begin(), lean.begin(), lean.end());
+    Built built = build(readText(shortScene + "[walls.floor]\nplane = { point = [0, 0, 0], normal = [0, 0, 1] }\n", "scene.toml", how));
+    sim::Simulation simulation(std::move(built.model), 1);
+    simulation.advance(400);
+    Snapshot snapshot;
+    simulation.fill(snapshot);
+    return snapshot;
+  };
+  for (const Overrides& how : {Overrides{}, Overrides{"simulation.integrator=velocity_verlet"}, Overrides{"simulation.integrator=leapfrog"},
+                               Overrides{"simulation.integrator=central_differences"}, Overrides{"simulation.integrator=explicit_euler"},
+                               Overrides{"simulation.integrator=rk4"}, Overrides{"simulation.precision=mixed"}, Overrides{"simulation.continuous=true"}}) {
+    const Snapshot plain = after(how, "none"), painted = after(how, "stripes");
+    const std::string name = how.empty() ? "" : how.front();
+    ASSERT_EQ(plain.grains(), painted.grains()) << name;
+    EXPECT_TRUE(plain.orientation.empty()) << name;
+    EXPECT_EQ(painted.orientation.size(), painted.grains()) << name;
+    std::size_t touched = 0;
+    for (std::size_t g = 0; g < plain.grains(); ++g) {
+      EXPECT_EQ(plain.position[g], painted.position[g]) << name;
+      EXPECT_EQ(plain.velocity[g], painted.velocity[g]) << name;
+      EXPECT_EQ(plain.angularVelocity[g], painted.angularVelocity[g]) << name;
+      touched += (plain.angularVelocity[g] - Vec3(3, -5, 7)).norm() > 1;
+    }
+    EXPECT_GT(touched, 3u) << name;
   }
 }
 

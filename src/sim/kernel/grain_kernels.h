@@ -41,9 +41,9 @@ struct Motion {
   }
 };
 
-/// Which variant of the loop: do grains turn; have they single rows to be kept up to date; do the single force rows act, and not the others?
+/// Which variant of the loop: do grains turn; is it kept how far; have they single rows to be kept up to date; do the single force rows act, and not the others?
 struct MoveKind {
-  bool turns, mixed, bySingle;
+  bool turns, keepsOrientation, mixed, bySingle;
 };
 
 /// Moves grains [first, last) by one step (docs/physics.md, I1–I6) and clears their forces.

@@ -73,10 +73,10 @@ TSUBU_INLINE Pace<turns> takeForces(const MoveContext& context, std::int32_t g) 
 }
 
 /// Returns the squares of the velocity by which the grain has gone, and 1/r.
-template <Integrator scheme, bool turns, bool mixed, bool bySingle>
+template <Integrator scheme, bool turns, bool keepsOrientation, bool mixed, bool bySingle>
 TSUBU_INLINE D4 moveGrain(const MoveContext& context, const MoveLanes<turns>& lanes, std::int32_t g) {
   GrainRow& row = context.rows[g];
-  const D4 x = load4(&row.x);
+  const D4 x = load4(&row.x), perRadius = load4(&row.sx);  // in its fourth
   const Pace<turns> rowPace = loadPace<turns>(&row.vx), forces = takeForces<turns, bySingle>(context, g);
   const Pace<turns> a = (lanes.perMass * row.inverseMass) * forces + lanes.gravity;
   constexpr bool verlet = scheme == Integrator::velocityVerlet, old = scheme == Integrator::explicitEuler;
@@ -109,13 +109,9 @@ TSUBU_INLINE D4 moveGrain(const MoveContext& context, const MoveLanes<turns>& la
     else
       store4(&single.vx, as<float>(now));
   }
-  D4 perRadius;
-  if constexpr (turns) {
-    perRadius = highHalf(rowPace);
+  if constexpr (keepsOrientation) {
     float* const turned = &context.turned[g].x;
     store4(turned, load4(turned) + as<float>((lanes.step * fill4(row.inverseRadius)) * highHalf(old ? before : u)));
-  } else {
-    perRadius = load4(&row.sx);
   }
   return withFourth(speed * speed, perRadius);
 }
@@ -142,7 +138,7 @@ struct MotionLanes {
 
 constexpr std::int32_t rowsAhead = 64;
 
-template <Integrator scheme, bool turns, bool mixed, bool bySingle>
+template <Integrator scheme, bool turns, bool keepsOrientation, bool mixed, bool bySingle>
 Motion moveGrains(const MoveContext& given, std::int32_t first, std::int32_t last) {
   const MoveContext context = given;  // a copy that no store can change
   const MoveLanes<turns> lanes(context);
@@ -154,29 +150,30 @@ Motion moveGrains(const MoveContext& given, std::int32_t first, std::int32_t las
       // Contacts have read the single rows alone, and these have not been seen in this step.
       const auto* const rows = reinterpret_cast<const char*>(context.rows + g + rowsAhead);
       for (std::size_t at = 0; at < 4 * sizeof(GrainRow); at += 64) __builtin_prefetch(rows + at, 1);
-      if constexpr (turns) __builtin_prefetch(context.turned + g + rowsAhead, 1);
+      if constexpr (keepsOrientation) __builtin_prefetch(context.turned + g + rowsAhead, 1);
     }
     D4 way[4];
-    for (int k = 0; k < 4; ++k) way[k] = moveGrain<scheme, turns, mixed, bySingle>(context, lanes, g + k);
+    for (int k = 0; k < 4; ++k) way[k] = moveGrain<scheme, turns, keepsOrientation, mixed, bySingle>(context, lanes, g + k);
     transpose4(way[0], way[1], way[2], way[3]);
     largest.add(way[0] + way[1] + way[2], fill4(context.dt) * way[3], as<double>(load4(context.perSkin2 + g)));
   }
   largest.addTo(motion);
   for (; g < last; ++g) {
-    const D4 way = moveGrain<scheme, turns, mixed, bySingle>(context, lanes, g);
+    const D4 way = moveGrain<scheme, turns, keepsOrientation, mixed, bySingle>(context, lanes, g);
     motion.add(way[0] + way[1] + way[2], context.dt * way[3], context.perSkin2[g]);
   }
   return motion;
 }
 
-template <Integrator scheme, bool turns>
+template <Integrator scheme, bool turns, bool keepsOrientation>
 MoveKernel moveBy(MoveKind kind) {
-  if (!kind.mixed) return &moveGrains<scheme, turns, false, false>;
-  return kind.bySingle ? &moveGrains<scheme, turns, true, true> : &moveGrains<scheme, turns, true, false>;
+  if (!kind.mixed) return &moveGrains<scheme, turns, keepsOrientation, false, false>;
+  return kind.bySingle ? &moveGrains<scheme, turns, keepsOrientation, true, true> : &moveGrains<scheme, turns, keepsOrientation, true, false>;
 }
 template <Integrator scheme>
 MoveKernel moveBy(MoveKind kind) {
-  return kind.turns ? moveBy<scheme, true>(kind) : moveBy<scheme, false>(kind);
+  if (!kind.turns) return moveBy<scheme, false, false>(kind);
+  return kind.keepsOrientation ? moveBy<scheme, true, true>(kind) : moveBy<scheme, true, false>(kind);
 }
 
 MoveKernel moveFor(Integrator scheme, MoveKind kind) {
