@@ -89,7 +89,7 @@ void describeColours(Form& form, render::Grains& grains) {
   form.rangeOrAuto({"range", "[low, high] of the quantity, with units. \"auto\": of each frame."}, grains.range,
                    dimensionOfColour(grains.by));
   form.colour({"uniform", "The colour of all grains when by = \"uniform\"."}, grains.uniform);
-  words(form, {"pattern", "What is painted on the grains, so that one sees them turn."}, grains.pattern, render::patternWords);
+  words(form, {"pattern", "What is painted on the grains, so that one sees them turn. How far they have is kept only then: a twentieth of the time of a step."}, grains.pattern, render::patternWords);
 }
 
 void describeShow(Form& form, Show& show) {

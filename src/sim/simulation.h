@@ -89,7 +89,7 @@ class Simulation {
   /// Contacts and bonds of the present instant as springs and dashpots, and the longest step that they bear (S8); need `contactForces`.
   ContactNetwork network();
   StepLimit stableStep();
-  /// Hash over the grains in the order of their ids (position, velocity, orientation) and the contact memory; equal for equal bits.
+  /// Hash over the grains in the order of their ids (position, velocity, orientation where it is kept) and the contact memory; equal for equal bits.
   std::uint64_t stateHash();
 
   /// From here on, where the time of the steps goes. The results do not depend on it.

@@ -18,9 +18,6 @@ namespace {
 template <BondDamping damping>
 inline constexpr bool dampsMotion = damping == BondDamping::percent || damping == BondDamping::viscous;
 
-/// The first three of `a` with the fourth of `b`.
-TSUBU_INLINE D4 withLast(const D4& a, const D4& b) { return __builtin_shufflevector(a, b, 0, 1, 2, 7); }
-
 TSUBU_INLINE void toColumns(D4 (&rows)[4], int q, BondStage::Column* columns, BondStage::Column& last) {
   transpose4(rows[0], rows[1], rows[2], rows[3]);
   for (int c = 0; c < 3; ++c) store4(columns[c] + q, rows[c]);
@@ -39,8 +36,8 @@ TSUBU_INLINE void gatherMotion(const BondRows& first, const BondRows& second, co
       const HalfStepRow& halfI = first.half[is[k]];
       const HalfStepRow& halfJ = second.half[js[k]];
       v[k] = load4(&halfI.vx) - load4(&halfJ.vx);
-      a[k] = withLast(load4(&halfI.sx), load4(&i.sx));
-      b[k] = withLast(load4(&halfJ.sx), load4(&j.sx));
+      a[k] = withFourth(load4(&halfI.sx), load4(&i.sx));
+      b[k] = withFourth(load4(&halfJ.sx), load4(&j.sx));
     } else {
       v[k] = load4(&i.vx) - load4(&j.vx);
       a[k] = load4(&i.sx);

@@ -248,17 +248,19 @@ void scatter(const PassContext& context, const std::int32_t* is, const std::int3
 template <class Law>
 TSUBU_INLINE void gatherFourOfWalls(const PassContext& context, const std::int32_t* grains, const WallContactRow* contacts, int q, Stage& s) {
   const D4 signs{-1, -1, -1, 1};
-  D4 d[4], v[4], w[4], spin[4], mass{}, radius{};
+  D4 d[4], v[4], w[4], spin[4];
+  double masses[4], radii[4];
   for (int k = 0; k < 4; ++k) {
     const GrainRow& row = context.rows[grains[k]];
     const WallContactRow& contact = contacts[k];
     d[k] = load4(&contact.dx);
     v[k] = load4(&row.vx) + signs * load4(&contact.vx);
-    radius[k] = row.radius;
+    radii[k] = row.radius;
     if constexpr (Law::turns || Law::readsRadius) w[k] = load4(&row.sx);
     if constexpr (Law::turns) spin[k] = load4(&contact.wx);
-    if constexpr (Law::rolls) mass[k] = row.inverseMass;
+    masses[k] = row.inverseMass;
   }
+  const D4 radius{radii[0], radii[1], radii[2], radii[3]}, mass{masses[0], masses[1], masses[2], masses[3]};
   transpose4(d[0], d[1], d[2], d[3]);
   store4(s.dx + q, d[0]), store4(s.dy + q, d[1]), store4(s.dz + q, d[2]);
   store4(s.radiusSum + q, radius);

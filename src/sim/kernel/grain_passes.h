@@ -25,10 +25,6 @@ TSUBU_INLINE Pace<turns> loadPace(const double* from) {
 TSUBU_INLINE void storePace(double* to, const D4& pace) { store4(to, pace); }
 TSUBU_INLINE void storePace(double* to, const D8& pace) { store8(to, pace); }
 
-/// The first three of `a` with the fourth of `b`, of each four.
-TSUBU_INLINE D4 withFourth(const D4& a, const D4& b) { return __builtin_shufflevector(a, b, 0, 1, 2, 7); }
-TSUBU_INLINE D8 withFourth(const D8& a, const D8& b) { return joined(withFourth(lowHalf(a), lowHalf(b)), withFourth(highHalf(a), highHalf(b))); }
-
 /// Three numbers for velocities and three for spins; nothing for the fourth.
 template <bool turns>
 TSUBU_INLINE Pace<turns> lanesOf(V3 linear, double surface) {
@@ -123,9 +119,9 @@ struct MotionLanes {
   /// As Motion::add; what is not a number stays.
   TSUBU_INLINE void add(const D4& speed2, const D4& scale, const D4& perSkin2) {
     const D4 way2 = speed2 * scale * scale, hasteOfGrain2 = speed2 * perSkin2;
-    haste2 = hasteOfGrain2 > haste2 ? hasteOfGrain2 : haste2;
-    fastest2 = speed2 > fastest2 ? speed2 : fastest2;
-    travel2 = ((way2 <= travel2) | (travel2 != travel2)) ? travel2 : way2;
+    haste2 = choose(hasteOfGrain2 > haste2, hasteOfGrain2, haste2);
+    fastest2 = choose(speed2 > fastest2, speed2, fastest2);
+    travel2 = choose((way2 <= travel2) | (travel2 != travel2), travel2, way2);
   }
   TSUBU_INLINE void addTo(Motion& motion) const {
     for (int k = 0; k < 4; ++k) {
@@ -216,15 +212,15 @@ TSUBU_INLINE Quat4 rotationBy(const D4& angleX, const D4& angleY, const D4& angl
   for (; most < mostHalvings; ++most) {
     const auto large = x * x + y * y + z * z > fill4(small2);
     if (!(large[0] || large[1] || large[2] || large[3])) break;
-    const D4 scale = large ? fill4(0.5) : fill4(1);
+    const D4 scale = choose(large, fill4(0.5), fill4(1));
     x *= scale, y *= scale, z *= scale;
-    halvings += large ? fill4(1) : fill4(0);
+    halvings += choose(large, fill4(1), fill4(0));
   }
   Quat4 q = rotationBySmall(x, y, z);
   for (int k = 1; k <= most; ++k) {
     const Quat4 squared = product(q, q);
     const auto again = halvings >= fill4(k);
-    q = {again ? squared.x : q.x, again ? squared.y : q.y, again ? squared.z : q.z, again ? squared.w : q.w};
+    q = {choose(again, squared.x, q.x), choose(again, squared.y, q.y), choose(again, squared.z, q.z), choose(again, squared.w, q.w)};
   }
   return q;
 }
@@ -241,8 +237,9 @@ void turnGrains(double* orientations, const AngleRow* angles, std::int64_t count
     transpose4(a[0], a[1], a[2], a[3]);
     transpose4(o[0], o[1], o[2], o[3]);
     const Quat4 q = product(rotationBy(a[0], a[1], a[2]), {o[0], o[1], o[2], o[3]});
-    D4 length2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, scale;
-    for (int k = 0; k < 4; ++k) scale[k] = 1 / std::sqrt(length2[k]);
+    const D4 length2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+    const auto perLength = [&](int k) { return 1 / std::sqrt(length2[k]); };
+    const D4 scale{perLength(0), perLength(1), perLength(2), perLength(3)};
     o[0] = scale * q.x, o[1] = scale * q.y, o[2] = scale * q.z, o[3] = scale * q.w;
     transpose4(o[0], o[1], o[2], o[3]);
     for (int k = 0; k < few; ++k) store4(orientations + 4 * (first + k), o[k]);
@@ -256,14 +253,15 @@ std::int64_t nearPairs(const Row* rows, const float* skins, double share, const 
   std::int64_t found = 0;
   for (std::int64_t q = 0; q < count; q += 4) {
     const int few = static_cast<int>(count - q < 4 ? count - q : 4);
-    D4 x[4], skin{};
+    D4 x[4];
+    double skin[4];
     for (int k = 0; k < 4; ++k) {
       const std::int64_t from = q + (k < few ? k : few - 1);
       x[k] = load4(&rows[is[from]].x) + signs * load4(&rows[js[from]].x);
       skin[k] = static_cast<double>(skins[is[from]]) + static_cast<double>(skins[js[from]]);
     }
     transpose4(x[0], x[1], x[2], x[3]);
-    const D4 reach = x[3] + fill4(share) * skin;
+    const D4 reach = x[3] + fill4(share) * D4{skin[0], skin[1], skin[2], skin[3]};
     const auto near = x[0] * x[0] + x[1] * x[1] + x[2] * x[2] < reach * reach;
     // Without a branch: which pairs are near cannot be foreseen.
     for (int k = 0; k < few; ++k) {

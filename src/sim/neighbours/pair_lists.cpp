@@ -35,12 +35,6 @@ void sortPairs(std::initializer_list<const std::vector<std::int32_t>*> flats, st
 
 }  // namespace
 
-std::size_t PairLists::listed() const {
-  std::size_t count = 0;
-  for (const SlabPairs& pairs : slabs_) count += pairs.i.size();
-  return count;
-}
-
 void PairLists::rememberContacts() {
   const auto components = static_cast<std::size_t>(stateSize_);
   const auto carries = [&](const SlabPairs& pairs, std::size_t k) {
@@ -100,7 +94,8 @@ void PairLists::searchSlab(const State& state, const Slabs& slabs, const CellGri
                            FlatPairs& before) const {
   const std::int32_t first = slabs.begin(slab);
   std::vector<std::int32_t> partners;
-  own.reserve(16 * static_cast<std::size_t>(slabs.end(slab) - first));
+  // Plenty: only what is written to takes memory, and a list that grows is there twice.
+  for (FlatPairs* list : {&own, &before}) list->reserve(16 * static_cast<std::size_t>(slabs.end(slab) - first));
   for (std::int32_t g = first; g < slabs.end(slab); ++g) {
     const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
     const std::size_t count = grid.partners(Vec3(row.x, row.y, row.z), row.radius + state.skin[static_cast<std::size_t>(g)], g, partners);

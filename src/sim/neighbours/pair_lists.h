@@ -78,7 +78,6 @@ class PairLists {
 
   std::vector<SlabPairs>& slabs() { return slabs_; }
   const std::vector<SlabPairs>& slabs() const { return slabs_; }
-  std::size_t listed() const;
 
  private:
   /// What the lists knew of contacts with memory, between two orders of the grains: `stateSize_` doubles in a row for each.

@@ -38,6 +38,7 @@ struct Magnetic {
     model.pairs = PairTable(2);
     model.pairs.set(0, 0, pair), model.pairs.set(0, 1, pair), model.pairs.set(1, 1, pair);
     model.magnets = Magnets{1, {}};
+    model.orientation = false;  // nobody looks; lasting magnets keep theirs
   }
   void add(std::uint16_t material, double radius, const Vec3& x, const Quat& q = Quat::Identity(), const Vec3& v = Vec3::Zero(),
            const Vec3& spin = Vec3::Zero()) {
