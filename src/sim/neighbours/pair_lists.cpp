@@ -94,8 +94,9 @@ void PairLists::searchSlab(const State& state, const Slabs& slabs, const CellGri
                            FlatPairs& before) const {
   const std::int32_t first = slabs.begin(slab);
   std::vector<std::int32_t> partners;
-  // Plenty: only what is written to takes memory, and a list that grows is there twice.
-  for (FlatPairs* list : {&own, &before}) list->reserve(16 * static_cast<std::size_t>(slabs.end(slab) - first));
+  // About what there will be: a list that grows is there twice for a moment.
+  own.reserve(8 * static_cast<std::size_t>(slabs.end(slab) - first));
+  before.reserve(3 * static_cast<std::size_t>(slabs.end(slab) - first));
   for (std::int32_t g = first; g < slabs.end(slab); ++g) {
     const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
     const std::size_t count = grid.partners(Vec3(row.x, row.y, row.z), row.radius + state.skin[static_cast<std::size_t>(g)], g, partners);
