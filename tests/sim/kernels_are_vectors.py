@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Are the loops over contacts vector code? A compiler that gives up on one says nothing, and the program is only several times slower.
+"""Are the loops over contacts and bonds vector code? A compiler that gives up on one says nothing, and the program is only several times slower.
 
 usage: kernels_are_vectors.py OBJDUMP OBJECT...
 
-OBJECT: what a kernel file was compiled to, with the name of its instruction set (kernel_avx2.cpp.o, kernel_single_avx512.cpp.o). Every pass over
-contacts must have a fair share of operations on whole vectors of that width: those on single numbers are for the contacts that
+OBJECT: what a kernel file was compiled to, with the name of its instruction set (contacts_avx2.cpp.o, single_avx512.cpp.o, bonds_avx2.cpp.o). Every
+pass over contacts and bonds must have a fair share of operations on whole vectors of that width: those on single numbers are for the contacts that
 are left over at the end of a loop, and every loop has both.
 """
 
@@ -13,7 +13,7 @@ import subprocess
 import sys
 
 WIDTH = {"avx2": "ymm", "avx512": "zmm"}
-PASSES = r"\b((passPairs|passWalls|passBonds|findDirections|findSlip|stretchBonds|pullBonds)<|(findAxes|turnFrames)\()"
+PASSES = r"\b((passPairs|passWalls|passBonds|findDirections|findSlip|stretchBonds|pullBonds)<|findPaths\()"
 # Operations on vectors over operations on numbers: g++ writes the rest of a loop out, which for single numbers may be twice as long.
 LEAST = {"d": 0.2, "s": 0.1}
 
@@ -38,12 +38,13 @@ def scalar_passes(objdump, file, register, precision):
 def main(objdump, *files):
     failed = False
     for file in files:
-        kernel = re.search(rf"kernel_(single_)?({'|'.join(WIDTH)})\.", file)
+        kernel = re.search(rf"(contacts|single|bonds)_({'|'.join(WIDTH)})\.", file)
         if not kernel:
             continue
-        isa, precision = kernel[2], "s" if kernel[1] else "d"
+        part, isa = kernel[1], kernel[2]
+        precision = "s" if part == "single" else "d"
         scalar, passes = scalar_passes(objdump, file, WIDTH[isa], precision)
-        print(f"{isa}, {'single' if kernel[1] else 'double'}: {passes} passes, {len(scalar)} of them scalar")
+        print(f"{isa}, {part}: {passes} passes, {len(scalar)} of them scalar")
         for name, vectors, numbers in scalar:
             print(f"  {vectors} on vectors, {numbers} on numbers:", name.replace("tsubu::sim::", "").replace("(anonymous namespace)::", ""))
         failed = failed or scalar or passes == 0

@@ -5,8 +5,8 @@ namespace tsubu::sim {
 void BondColumns::add(std::int32_t first, std::int32_t second, const BondBody& body, const BondMemory& memory) {
   i.push_back(first);
   j.push_back(second);
-  const double values[columns] = {memory.t.x,   memory.t.y,  memory.t.z,    memory.shearT, memory.shearB,  memory.twist,  memory.bendT,
-                                  memory.bendB, memory.rest, body.radius, body.stiffness, body.length, body.critical, body.bendCritical};
+  const double values[columns] = {memory.shear.x, memory.shear.y, memory.shear.z, memory.turn.x, memory.turn.y, memory.turn.z,    memory.rest,
+                                  body.along,     body.bend,      body.radius,    body.length,   body.critical, body.bendCritical};
   for (std::size_t c = 0; c < columns; ++c) column[c].push_back(values[c]);
 }
 
@@ -31,11 +31,11 @@ void BondColumns::drop(const std::vector<char>& marked) {
 }
 
 BondBody BondColumns::body(std::size_t k) const {
-  return {at(radius, k), at(stiffness, k), at(length, k), at(critical, k), at(bendCritical, k)};
+  return {at(radius, k), at(along, k), at(bend, k), at(length, k), at(critical, k), at(bendCritical, k)};
 }
 
 BondMemory BondColumns::memory(std::size_t k) const {
-  return {{at(tx, k), at(ty, k), at(tz, k)}, at(shearT, k), at(shearB, k), at(twist, k), at(bendT, k), at(bendB, k), at(rest, k)};
+  return {{at(shearX, k), at(shearY, k), at(shearZ, k)}, {at(turnX, k), at(turnY, k), at(turnZ, k)}, at(rest, k)};
 }
 
 }  // namespace tsubu::sim

@@ -12,7 +12,7 @@ namespace tsubu::sim {
 
 /// Everything about bonds between grains that lies along the list. The ends are places of grains, the lower id first.
 struct BondColumns {
-  enum Name { tx, ty, tz, shearT, shearB, twist, bendT, bendB, rest, radius, stiffness, length, critical, bendCritical, columns };
+  enum Name { shearX, shearY, shearZ, turnX, turnY, turnZ, rest, along, bend, radius, length, critical, bendCritical, columns };
 
   std::vector<std::int32_t> i, j;
   std::array<std::vector<double>, columns> column;
@@ -45,10 +45,9 @@ struct alignas(64) BondStage {
   Column d[3], radiusSum;
   Motion half, now;  // `now` only when something is damped and the rows do not have the velocities of the half step
 
-  // On the way: see BondAxis, BondFrame.
-  Column n0[3], n[3], r0, r, perRadiusSum;
-  Column b[3], sumT[3], sumB[3];
-  Column before[6];  // BondStrain, for bonds that may break or relax
+  // On the way: see BondLength, BondPath, BondRotation.
+  Column r, perR, perRadiusSum, perMiddle2;
+  Column n[3], rotation[3], sheared[3], scale;
 
   // Out: force on i, and the couples Q of both ends, moments included (T = −r Q).
   Column force[3], coupleI[3], coupleJ[3];
@@ -74,6 +73,13 @@ struct BondFindings {
     for (int l = 0; l < 8; ++l) total += lanes[l];
     return total;
   }
+};
+
+/// Which variant of the loop: what bonds do beside their springs, and with accounts of what dampers and relaxation take, or without.
+struct BondPassKind {
+  BondDamping damping;
+  bool breakable;
+  bool accounts;
 };
 
 /// Advances all bonds of a list by a step and adds their forces to the rows of both ends. Bonds that break do nothing any more and are

@@ -3,17 +3,17 @@
 //
 //   B1  r_b = λ min(R_i, R_j),  A = π r_b²,  J = ½ A r_b²,  I = ½ J
 //   B2  F_n = k_n A (r_0 − r) along n;  F_t = −k_t A s, across;  M_n = −k_t J θ_n, torsion;  M_t = −k_n I θ_t, bending
-//   B3  ṡ = v_t (T0, arms l_i + l_j = r),  θ̇ = ω_i − ω_j,  in a frame (n, t, b) that turns with the bond
-//   B4  percent:      F ← F − η |F| sgn(v), component by component in that frame
+//   B3  ṡ = v_t (T0, arms l_i + l_j = r),  θ̇ = ω_i − ω_j,  turning with the bond
+//   B4  percent:      F ← F − η |F| v/|v|, for what is along, across, twists, bends
 //   B5  exponential:  Ḟ = −η F beside the springs, the rest length included: what they hold relaxes
 //   B6  viscous:      F ← F − 2ζ √(k m) v, m the mass that the component moves
 //
 // The force on i is F, on j −F; the couple of F is that of a contact, T_i = −l_i n × F, T_j = −l_j n × F; M acts on i, −M on j.
 //
-// Springs are kept as numbers in the bond's own frame: carrying that frame is all that the turning of the bond takes, and nothing
-// leaks from turning a vector. Memory lives at whole steps. From step to step it is advanced with the velocities of the half step that
-// moved the grains, in geometry averaged over both ends of it, so that going back undoes it: without damping energy neither
-// grows nor falls, in either integrator, and needs none of the least dashpot of T6. Dampers see the velocity of the instant.
+// Springs are vectors that turn with the bond: by one rotation in each step, exactly orthogonal, so that nothing leaks. Memory lives at
+// whole steps. From step to step it is advanced with the velocities of the half step that moved the grains, in the geometry half-way, so
+// that going back undoes it: without damping energy neither grows nor falls, in either integrator, and needs none of the least dashpot of
+// T6. Dampers see the velocity of the instant.
 //
 // Source: "linear bond model" (Bond 1–14), corrected (docs/physics.md). Proven by tests/sim/bonds and tests/verification/bonds_test.cpp.
 
@@ -44,21 +44,20 @@ inline BondKind kindOf(const Bonding& bonding) {
   return kind;
 }
 
-/// What is kept of a bond from step to step.
+/// What is kept of a bond from step to step, in the directions of the world.
 struct BondMemory {
-  V3 t;                          ///< unit vector across, of the bond's frame (n, t, n × t)
-  double shearT, shearB;         ///< s, m
-  double twist, bendT, bendB;    ///< θ, rad
-  double rest;                   ///< r_0, m
+  V3 shear{};    ///< s, m; at right angles to n
+  V3 turn{};     ///< θ, rad: torsion along n, bending across
+  double rest = 0;  ///< r_0, m
 };
 
 /// What does not change.
 struct BondBody {
-  double radius;       ///< r_b, m
-  double stiffness;    ///< k_n, N/m³
-  double length;       ///< m, when it was made
-  double critical;     ///< B6: critical dashpot along the bond, 2 √(k_n A m*), kg/s
-  double bendCritical; ///< B6: of bending, 2 √(k_n I I*), N m s
+  double radius;        ///< r_b, m
+  double along, bend;   ///< k_n A, N/m, and k_n I, N m
+  double length;        ///< m, when it was made
+  double critical;      ///< B6: critical dashpot along the bond, 2 √(k_n A m*), kg/s
+  double bendCritical;  ///< B6: of bending, 2 √(k_n I I*), N m s
 };
 
 inline constexpr double bondPi = 3.141592653589793;
@@ -71,22 +70,23 @@ struct BondMotion {
 };
 
 struct BondForce {
-  V3 force;    ///< on i
-  V3 couple;   ///< Q = (l/R) n × F, the same at both ends: torques −R Q (grain_rows.h)
-  V3 moment;   ///< on i
-  double loss;      ///< J: what dampers take in the step
-  double relaxed;   ///< J: what B5 has taken since the step before
-  bool holds;       ///< or breaks now
+  V3 force;     ///< on i
+  V3 couple;    ///< Q = (l/R) n × F, the same at both ends: torques −R Q (grain_rows.h)
+  V3 moment;    ///< on i
+  double loss;  ///< J: what dampers take in the step
+  bool holds;   ///< or breaks now
 };
 
-/// How far the springs are stretched, in the bond's frame.
+/// How far the springs are stretched.
 struct BondStrain {
-  double stretch;         ///< r_0 − r, m
-  double shearT, shearB;  ///< s, m
-  double twist, bendT, bendB;  ///< θ, rad
+  double stretch;  ///< r_0 − r, m
+  V3 shear;        ///< s, m
+  double twist;    ///< along n, rad
+  V3 bend;         ///< across it, rad
 };
-TSUBU_INLINE BondStrain strainOf(const BondMemory& memory, double r) {
-  return {memory.rest - r, memory.shearT, memory.shearB, memory.twist, memory.bendT, memory.bendB};
+TSUBU_INLINE BondStrain strainOf(const BondMemory& memory, V3 n, double r) {
+  const double twist = dot(memory.turn, n);
+  return {memory.rest - r, memory.shear, twist, memory.turn - twist * n};
 }
 
 /// N/m and N m: k_n A, k_t A, k_t J, k_n I.
@@ -94,187 +94,189 @@ struct BondSprings {
   double along, across, twist, bend;
 };
 TSUBU_INLINE BondSprings springsOf(const BondBody& body, double shearOverNormal) {
-  const double radius2 = body.radius * body.radius, along = body.stiffness * bondPi * radius2, bend = 0.25 * along * radius2;
-  return {along, shearOverNormal * along, 2 * shearOverNormal * bend, bend};
+  return {body.along, shearOverNormal * body.along, 2 * shearOverNormal * body.bend, body.bend};
 }
 
 /// The energy of the springs when both states are the same; otherwise between the two: ½ Σ k a b.
 TSUBU_INLINE double springProduct(const BondSprings& k, const BondStrain& a, const BondStrain& b) {
-  return 0.5 * (k.along * (a.stretch * b.stretch) + k.across * (a.shearT * b.shearT + a.shearB * b.shearB) + k.twist * (a.twist * b.twist) +
-                k.bend * (a.bendT * b.bendT + a.bendB * b.bendB));
+  return 0.5 * (k.along * (a.stretch * b.stretch) + k.across * dot(a.shear, b.shear) + k.twist * (a.twist * b.twist) +
+                k.bend * dot(a.bend, b.bend));
 }
 
-/// What springs and dampers do, in the bond's frame: force and moment on i.
+/// What springs and dampers do: forces along and across the bond, moments about it and across it, on i.
 struct BondPull {
-  double fn, ft, fb, mn, mt, mb;
+  double along;
+  V3 across;
+  double twist;
+  V3 bend;
 };
 /// B2.
 TSUBU_INLINE BondPull pullOf(const BondSprings& k, const BondStrain& strain) {
-  return {k.along * strain.stretch, -(k.across * strain.shearT), -(k.across * strain.shearB),
-          -(k.twist * strain.twist), -(k.bend * strain.bendT), -(k.bend * strain.bendB)};
+  return {k.along * strain.stretch, -k.across * strain.shear, -k.twist * strain.twist, -k.bend * strain.bend};
 }
 
 /// B7–B10: the largest of the stresses over its strength, r its length over the first one. 1 breaks.
 /// Stresses: along the bond (positive in compression), in the outermost fibre by bending, across it with what torsion adds.
 TSUBU_INLINE double bondLoad(const BondStrength& strength, const BondBody& body, const BondPull& pull, double r) {
   const double area = bondPi * body.radius * body.radius, section = 0.25 * area * body.radius;  // I/r_b, half of J/r_b
-  const double axial = pull.fn / area, fibre = std::sqrt(pull.mt * pull.mt + pull.mb * pull.mb) / section;
-  const double shear = std::sqrt(pull.ft * pull.ft + pull.fb * pull.fb) / area + 0.5 * std::abs(pull.mn) / section;
+  const double axial = pull.along / area, fibre = norm(pull.bend) / section;
+  const double shear = norm(pull.across) / area + 0.5 * std::abs(pull.twist) / section;
   const double resistance = strength.shear + strength.pressureSlope * larger(axial, 0);
   return larger(larger((fibre - axial) / strength.tension, (fibre + axial) / strength.compression),
                 larger(shear / resistance, r / (body.length * strength.stretch)));
 }
 /// Is that less than 1? Without quotients and roots, which a loop over bonds would wait for: both sides of each comparison times A r_b.
 TSUBU_INLINE bool bondHolds(const BondStrength& strength, const BondBody& body, const BondPull& pull, double r) {
-  const double volume = bondPi * body.radius * body.radius * body.radius, push = pull.fn * body.radius;
+  const double radius2 = body.radius * body.radius, volume = bondPi * radius2 * body.radius, push = pull.along * body.radius;
   const double fibre = smaller(strength.tension * volume + push, strength.compression * volume - push);  // left for 4 M
-  const double shear = strength.shear * volume + strength.pressureSlope * larger(push, 0) - 2 * std::abs(pull.mn);  // left for r_b F
-  const double bending2 = 16 * (pull.mt * pull.mt + pull.mb * pull.mb), shear2 = body.radius * body.radius * (pull.ft * pull.ft + pull.fb * pull.fb);
+  const double shear = strength.shear * volume + strength.pressureSlope * larger(push, 0) - 2 * std::abs(pull.twist);  // left for r_b F
+  const double bending2 = 16 * norm2(pull.bend), shear2 = radius2 * norm2(pull.across);
   // Of a limit that is below zero already, the square says nothing.
   const double over = larger(bending2 - fibre * larger(fibre, 0), shear2 - shear * larger(shear, 0));
   return larger(over, r - strength.stretch * body.length) < 0;
 }
 
-/// A bond at both ends of a step: unit vectors along it, its lengths, and 1/(R_i + R_j).
-struct BondAxis {
-  V3 n0, n;
-  double r0, r;
-  double perRadiusSum;
+/// The length of a bond, and reciprocals: of it, of the sum of the radii, and of its square half a step ago.
+struct BondLength {
+  double r, perR, perRadiusSum, perMiddle2;
 };
 /// \param d         x_i − x_j now
 /// \param velocity  with which it has come there
-TSUBU_INLINE BondAxis axisOf(V3 d, double radiusSum, V3 velocity, double dt) {
-  const V3 d0 = d - dt * velocity;
-  const double r = norm(d), r0 = norm(d0);
-  // One division for three reciprocals, here and below: divisions are what the loop waits for.
-  const double all = 1 / (r * r0 * radiusSum);
-  return {(all * r * radiusSum) * d0, (all * r0 * radiusSum) * d, r0, r, all * (r * r0)};
+TSUBU_INLINE BondLength lengthOf(V3 d, double radiusSum, V3 velocity, double dt) {
+  const double r = norm(d), middle2 = norm2(d - (0.5 * dt) * velocity), rSum = r * radiusSum;
+  // One division for three reciprocals: divisions are what the loop waits for.
+  const double all = 1 / (middle2 * rSum), perBoth = all * middle2;
+  return {r, perBoth * radiusSum, perBoth * r, all * rSum};
 }
+TSUBU_INLINE double lengthBefore(V3 d, V3 velocity, double dt) { return norm(d - dt * velocity); }
 
-/// The rest of the frame (n, t, b) now, and of twice the mean of both ends of the step.
-struct BondFrame {
-  V3 t, b;
-  V3 sumT, sumB;
+/// How a step has moved a bond.
+struct BondPath {
+  V3 n;         ///< now
+  V3 rotation;  ///< g of the BondRotation since the step before
+  V3 sheared;   ///< half of what the springs across are stretched further, at either end of it
 };
-/// The smallest rotation from n0 to n, then about n with the mean spin of the grains.
-TSUBU_INLINE BondFrame turned(V3 t0, const BondAxis& axis, V3 spinSum, double dt) {
-  const V3 n0 = axis.n0, n = axis.n, sumN = n0 + n;
-  const double angle = 0.5 * dt * axis.perRadiusSum * dot(spinSum, sumN), quarter = 0.25 * angle * angle;
-  const double bend = 1 + dot(n0, n), both = 1 / (bend * (1 + quarter));
-  // At right angles to n, however exact t0 is; its length is held by a step of Newton's for 1/√.
-  const V3 laid = t0 - (dot(t0, n) * (both * (1 + quarter))) * sumN;
-  const double scale = both * bend * (1.5 - 0.5 * norm2(t0));
-  const V3 t = (scale * (1 - quarter)) * laid + (scale * angle) * cross(n, laid), b = cross(n, t);
-  return {t, b, t0 + t, cross(n0, t0) + b};
+/// B3, half-way: the bond follows its ends and turns about itself with the mean spin of the grains.
+TSUBU_INLINE BondPath pathOf(V3 d, const BondLength& length, V3 velocity, V3 spinSum, double dt) {
+  const V3 way = (0.5 * dt) * velocity, middle = d - way, spin = (0.5 * dt * length.perRadiusSum) * spinSum;
+  // Of the mean spin, middle × sheared takes away what is across the bond and puts there how the bond itself turns.
+  const V3 sheared = way + cross(middle, spin);
+  return {length.perR * d, spin + length.perMiddle2 * cross(middle, sheared), sheared};
 }
 
-/// B3, with frame and arms half-way: by how much the springs are stretched further.
-TSUBU_INLINE BondStrain strainBy(const BondMotion& moved, const BondAxis& axis, V3 sumT, V3 sumB, double dt) {
-  const V3 sumN = axis.n0 + axis.n;
-  const double half = 0.5 * dt, arm = 0.5 * (axis.r0 + axis.r) * axis.perRadiusSum;
-  return {axis.r0 - axis.r,
-          half * (dot(moved.velocity, sumT) - arm * dot(moved.spinSum, sumB)),
-          half * (dot(moved.velocity, sumB) + arm * dot(moved.spinSum, sumT)),
-          half * dot(moved.spin, sumN),
-          half * dot(moved.spin, sumT),
-          half * dot(moved.spin, sumB)};
+/// A rotation about g by twice the arc tangent of |g|. Cayley's form is orthogonal at any angle, without sine or cosine.
+struct BondRotation {
+  V3 g;
+  double scale;  ///< 2/(1 + g²)
+};
+TSUBU_INLINE double scaleOf(V3 g) { return 2 / (1 + norm2(g)); }
+/// By how much v changes.
+TSUBU_INLINE V3 changeBy(const BondRotation& rotation, V3 v) { return cross(rotation.scale * rotation.g, v + cross(rotation.g, v)); }
+
+/// Takes from v what is along n. A step leaves that in the springs across, by less than it knows of them: they are kept where they belong.
+TSUBU_INLINE V3 acrossOf(V3 v, V3 n) { return v - dot(v, n) * n; }
+
+/// What a step adds to the springs, in the directions of its end. Half of it is added at its beginning, and turns with the bond.
+TSUBU_INLINE BondStrain strainBy(const BondPath& path, const BondRotation& rotation, V3 spin, double r0, double r, double dt) {
+  const V3 turned = (0.5 * dt) * spin;
+  const V3 shear = acrossOf(2 * path.sheared + changeBy(rotation, path.sheared), path.n);
+  return strainOf({shear, 2 * turned + changeBy(rotation, turned), r0}, path.n, r);
 }
 
-/// The springs at the end of the step.
+/// B5 in a step: what is left of a spring, and of what the step adds to it. (1 − ½ηΔt)/(1 + ½ηΔt) rather than 1 − ηΔt (Bond 11): second
+/// order, and what `relaxedIn` says is lost is exact.
 template <BondDamping damping>
-TSUBU_INLINE BondStrain stretched(const BondKind& kind, const BondStrain& before, const BondStrain& by, double dt) {
-  if constexpr (damping == BondDamping::exponential) {
-    // (1 − ½ηΔt)/(1 + ½ηΔt) rather than 1 − ηΔt (Bond 11): second order, and what `relaxedIn` says is lost is exact.
-    const auto relax = [&](BondWay way, double spring, double gain) {
-      const double half = 0.5 * kind.eta[way] * dt;
-      return ((1 - half) * spring + gain) / (1 + half);
-    };
-    return {relax(along, before.stretch, by.stretch), relax(across, before.shearT, by.shearT), relax(across, before.shearB, by.shearB),
-            relax(twisting, before.twist, by.twist),  relax(bending, before.bendT, by.bendT),  relax(bending, before.bendB, by.bendB)};
+struct BondRelaxation {
+  double kept = 1, taken = 1;
+
+  BondRelaxation(const BondKind& kind, BondWay way, double dt) {
+    if constexpr (damping != BondDamping::exponential) return;
+    const double half = 0.5 * kind.eta[way] * dt;
+    kept = (1 - half) / (1 + half), taken = 1 / (1 + half);
   }
-  return {before.stretch + by.stretch, before.shearT + by.shearT, before.shearB + by.shearB,
-          before.twist + by.twist,     before.bendT + by.bendT,   before.bendB + by.bendB};
-}
+  TSUBU_INLINE double after(double before, double by) const { return kept * before + taken * by; }
+  TSUBU_INLINE V3 after(V3 before, V3 by) const { return kept * before + taken * by; }
+  /// From what is now, to second order: without relaxation it is exact.
+  TSUBU_INLINE double before(double now, double by) const { return (2 - kept) * now - taken * by; }
+  TSUBU_INLINE V3 before(V3 now, V3 by) const { return (2 - kept) * now - taken * by; }
+};
 
 /// B5: what relaxation has taken between two states, J.
 TSUBU_INLINE double relaxedIn(const BondKind& kind, const BondSprings& k, const BondStrain& a, const BondStrain& b, double dt) {
-  const auto lost = [&](BondWay way, double stiffness, double a1, double b1) {
-    const double mean = 0.5 * (a1 + b1);
-    return kind.eta[way] * stiffness * mean * mean;
-  };
-  return dt * (lost(along, k.along, a.stretch, b.stretch) + lost(across, k.across, a.shearT, b.shearT) +
-               lost(across, k.across, a.shearB, b.shearB) + lost(twisting, k.twist, a.twist, b.twist) +
-               lost(bending, k.bend, a.bendT, b.bendT) + lost(bending, k.bend, a.bendB, b.bendB));
+  const double stretch = a.stretch + b.stretch, twist = a.twist + b.twist;
+  return 0.25 * dt * (kind.eta[along] * k.along * (stretch * stretch) + kind.eta[across] * k.across * norm2(a.shear + b.shear) +
+                      kind.eta[twisting] * k.twist * (twist * twist) + kind.eta[bending] * k.bend * norm2(a.bend + b.bend));
+}
+
+/// \brief The springs at the end of a step, from those at its beginning.
+/// \param r0  the length at its beginning; read by B5 only
+/// \return what has relaxed, J
+template <BondDamping damping>
+TSUBU_INLINE double stretchBond(const BondKind& kind, const BondBody& body, const BondPath& path, const BondRotation& rotation, V3 spin,
+                                double r0, double r, double dt, BondMemory& memory) {
+  if constexpr (damping == BondDamping::exponential) {
+    const BondMemory turned{memory.shear + changeBy(rotation, memory.shear), memory.turn + changeBy(rotation, memory.turn), memory.rest};
+    const BondStrain before = strainOf(turned, path.n, r0), by = strainBy(path, rotation, spin, r0, r, dt);
+    const BondStrain now{BondRelaxation<damping>(kind, along, dt).after(before.stretch, by.stretch),
+                         acrossOf(BondRelaxation<damping>(kind, across, dt).after(before.shear, by.shear), path.n),
+                         BondRelaxation<damping>(kind, twisting, dt).after(before.twist, by.twist),
+                         BondRelaxation<damping>(kind, bending, dt).after(before.bend, by.bend)};
+    memory = {now.shear, now.bend + now.twist * path.n, now.stretch + r};
+    return relaxedIn(kind, springsOf(body, kind.shearOverNormal), before, now, dt);
+  } else {
+    // The same with one rotation for what was there and what is added.
+    const V3 turned = (0.5 * dt) * spin, shear = memory.shear + path.sheared, turn = memory.turn + turned;
+    memory.shear = acrossOf(shear + changeBy(rotation, shear) + path.sheared, path.n);
+    memory.turn = turn + changeBy(rotation, turn) + turned;
+    return 0;
+  }
+}
+
+/// The springs at the beginning of the step, in the directions of its end, from those at its end.
+template <BondDamping damping>
+BondStrain strainBefore(const BondKind& kind, const BondStrain& now, const BondStrain& by, double dt) {
+  return {BondRelaxation<damping>(kind, along, dt).before(now.stretch, by.stretch),
+          BondRelaxation<damping>(kind, across, dt).before(now.shear, by.shear),
+          BondRelaxation<damping>(kind, twisting, dt).before(now.twist, by.twist),
+          BondRelaxation<damping>(kind, bending, dt).before(now.bend, by.bend)};
 }
 
 TSUBU_INLINE double signOf(double v) { return v > 0 ? 1.0 : (v < 0 ? -1.0 : 0.0); }
 
 /// B4, B6: takes from the pull what dampers hold back, and returns what they take from the energy in the step, J.
+/// \param lever  from the axis of i to that of j over R_i + R_j
 template <BondDamping damping>
-TSUBU_INLINE double dampPull(const BondKind& kind, const BondBody& body, const BondMotion& now, V3 n, V3 t, V3 b, double arm, double dt,
-                             BondPull& pull) {
-  const double vn = dot(now.velocity, n);
-  const double vt = dot(now.velocity, t) - arm * dot(now.spinSum, b), vb = dot(now.velocity, b) + arm * dot(now.spinSum, t);
-  const double wn = dot(now.spin, n), wt = dot(now.spin, t), wb = dot(now.spin, b);
-  const auto damp = [&](BondWay way, double& force, double v, double dashpot) {
-    const double part = damping == BondDamping::percent ? kind.eta[way] * std::abs(force) * signOf(v) : kind.eta[way] * dashpot * v;
-    force -= part;
-    return part * v;
+TSUBU_INLINE double dampPull(const BondKind& kind, const BondBody& body, const BondMotion& now, V3 n, V3 lever, double dt, BondPull& pull) {
+  const double vn = dot(now.velocity, n), wn = dot(now.spin, n);
+  const V3 vt = now.velocity - vn * n + cross(lever, now.spinSum), wt = now.spin - wn * n;
+  const auto hold = [&](BondWay way, double force, double v, double dashpot) {
+    return damping == BondDamping::percent ? kind.eta[way] * std::abs(force) * signOf(v) : kind.eta[way] * dashpot * v;
   };
-  return dt * (damp(along, pull.fn, vn, body.critical) + damp(across, pull.ft, vt, body.critical) +
-               damp(across, pull.fb, vb, body.critical) + damp(twisting, pull.mn, wn, body.bendCritical) +
-               damp(bending, pull.mt, wt, body.bendCritical) + damp(bending, pull.mb, wb, body.bendCritical));
-}
-
-/// The pull as vectors.
-TSUBU_INLINE void resolve(const BondPull& pull, V3 n, V3 t, V3 b, double arm, BondForce& to) {
-  to.force = pull.fn * n + pull.ft * t + pull.fb * b;
-  to.couple = (arm * pull.ft) * b - (arm * pull.fb) * t;
-  to.moment = pull.mn * n + pull.mt * t + pull.mb * b;
-}
-
-/// Stretches the springs of a bond whose frame has been turned, and says how they were before.
-template <BondDamping damping>
-TSUBU_INLINE BondStrain stretchBond(const BondKind& kind, const BondAxis& axis, V3 sumT, V3 sumB, const BondMotion& moved, double dt,
-                                    BondMemory& memory) {
-  const BondStrain before = strainOf(memory, axis.r0);
-  const BondStrain now = stretched<damping>(kind, before, strainBy(moved, axis, sumT, sumB, dt), dt);
-  if constexpr (damping == BondDamping::exponential) memory.rest = now.stretch + axis.r;
-  memory.shearT = now.shearT, memory.shearB = now.shearB;
-  memory.twist = now.twist, memory.bendT = now.bendT, memory.bendB = now.bendB;
-  return before;
+  const auto holdAcross = [&](BondWay way, V3 force, V3 v, double dashpot) {
+    return (kind.eta[way] * (damping == BondDamping::percent ? std::sqrt(norm2(force) / larger(norm2(v), tiny)) : dashpot)) * v;
+  };
+  const double heldAlong = hold(along, pull.along, vn, body.critical), heldTwist = hold(twisting, pull.twist, wn, body.bendCritical);
+  const V3 heldAcross = holdAcross(across, pull.across, vt, body.critical), heldBend = holdAcross(bending, pull.bend, wt, body.bendCritical);
+  pull = {pull.along - heldAlong, pull.across - heldAcross, pull.twist - heldTwist, pull.bend - heldBend};
+  return dt * (heldAlong * vn + dot(heldAcross, vt) + heldTwist * wn + dot(heldBend, wt));
 }
 
 /// \brief What a bond does, with its springs as they are now.
-/// \param before  the springs at the beginning of the step; read by B5 only
 /// \param now     motion of the instant; read by dampers only
 template <BondDamping damping, bool breakable>
-TSUBU_INLINE BondForce pullBond(const BondKind& kind, const BondBody& body, const BondMemory& memory, const BondStrain& before, V3 n, V3 b,
-                                double r, double perRadiusSum, const BondMotion& now, double dt) {
-  const BondSprings springs = springsOf(body, kind.shearOverNormal);
-  const BondStrain strain = strainOf(memory, r);
-  const double arm = r * perRadiusSum;
-  BondPull pull = pullOf(springs, strain);
+TSUBU_INLINE BondForce pullBond(const BondKind& kind, const BondBody& body, const BondMemory& memory, V3 n, double r, double perRadiusSum,
+                                const BondMotion& now, double dt) {
+  const V3 lever = (r * perRadiusSum) * n;
+  BondPull pull = pullOf(springsOf(body, kind.shearOverNormal), strainOf(memory, n, r));
   BondForce result{};
   result.holds = true;
   if constexpr (breakable) result.holds = bondHolds(kind.strength, body, pull, r);
-  if constexpr (damping == BondDamping::exponential) result.relaxed = relaxedIn(kind, springs, before, strain, dt);
   if constexpr (damping == BondDamping::percent || damping == BondDamping::viscous)
-    result.loss = dampPull<damping>(kind, body, now, n, memory.t, b, arm, dt, pull);
-  resolve(pull, n, memory.t, b, arm, result);
+    result.loss = dampPull<damping>(kind, body, now, n, lever, dt, pull);
+  result.force = pull.along * n + pull.across;
+  result.couple = cross(lever, pull.across);
+  result.moment = pull.twist * n + pull.bend;
   return result;
-}
-
-/// One step of one bond: advances the memory and returns what the bond does. The kernels take many bonds through these four parts one
-/// after the other (kernel/bond_passes.h).
-template <BondDamping damping, bool breakable>
-TSUBU_INLINE BondForce stepBond(const BondKind& kind, const BondBody& body, V3 d, double radiusSum, const BondMotion& moved,
-                                const BondMotion& now, double dt, BondMemory& memory) {
-  const BondAxis axis = axisOf(d, radiusSum, moved.velocity, dt);
-  const BondFrame frame = turned(memory.t, axis, moved.spinSum, dt);
-  memory.t = frame.t;
-  const BondStrain before = stretchBond<damping>(kind, axis, frame.sumT, frame.sumB, moved, dt, memory);
-  return pullBond<damping, breakable>(kind, body, memory, before, axis.n, frame.b, axis.r, axis.perRadiusSum, now, dt);
 }
 
 }  // namespace tsubu::sim

@@ -20,14 +20,13 @@ struct Swing {
 Swing swingOf(const Bonding& bonding, const BondBody& body, double armI, double armJ, double inverseMass, double inverseMomentI,
               double inverseMomentJ) {
   const BondKind kind = kindOf(bonding);
-  const double radius2 = body.radius * body.radius, normal = body.stiffness * bondPi * radius2, bend = 0.25 * normal * radius2;
-  const double shear = kind.shearOverNormal * normal, twist = 2 * kind.shearOverNormal * bend;
+  const BondSprings springs = springsOf(body, kind.shearOverNormal);
   const double moments = inverseMomentI + inverseMomentJ;
   const double slipping = inverseMass + armI * armI * inverseMomentI + armJ * armJ * inverseMomentJ;
   double share = 1;
   Swing swing{};
   if (bonding.damping == BondDamping::percent) share += *std::max_element(bonding.dampingOf.begin(), bonding.dampingOf.end());
-  swing.stiffness = share * std::max({normal * inverseMass, shear * slipping + bend * moments, twist * moments});
+  swing.stiffness = share * std::max({springs.along * inverseMass, springs.across * slipping + springs.bend * moments, springs.twist * moments});
   if (bonding.damping == BondDamping::viscous)
     swing.damping = std::max({kind.eta[along] * body.critical * inverseMass,
                               kind.eta[across] * body.critical * slipping + kind.eta[bending] * body.bendCritical * moments,

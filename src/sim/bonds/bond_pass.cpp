@@ -25,6 +25,8 @@ Vec3 positionOf(const GrainRow& row) { return {row.x, row.y, row.z}; }
 Vec3 between(const World& world, const GrainRow& a, const GrainRow& b) { return world.periods.nearest(positionOf(a) - positionOf(b)); }
 double distanceOf(const World& world, const GrainRow& a, const GrainRow& b) { return between(world, a, b).norm(); }
 
+V3 directionOf(const Vec3& branch, double length) { return {branch.x() / length, branch.y() / length, branch.z() / length}; }
+
 int slabOf(const Slabs& slabs, std::int32_t place) {
   return static_cast<int>(std::upper_bound(slabs.first.begin(), slabs.first.end(), place) - slabs.first.begin()) - 1;
 }
@@ -93,7 +95,7 @@ BondPass::BondPass(const Model& model) : shown_(model.showBonds) {
     Kind kind;
     kind.bonding = &bonding;
     kind.constants = kindOf(bonding);
-    kind.kernel = kernels().bonds(bonding.damping, bonding.strength.breakable());
+    kind.kernel = kernels().bonds({bonding.damping, bonding.strength.breakable(), model.ledger});
     kinds_.push_back(std::move(kind));
     until_ = std::max({until_, bonding.start, bonding.end});
   }
@@ -395,7 +397,7 @@ void BondPass::make(const World& world, std::size_t number) {
       const GrainRow& row = state.rows[g];
       const Vec3 d = positionOf(row) - foot.point;
       const BondInertia inertia{row.inverseMass, 2.5 * row.inverseMass * row.inverseRadius * row.inverseRadius};
-      walls.add(foot.grain, pose.toLocal(foot.point), bodyOf(bonding, row.radius, d.norm(), inertia), freshMemory(d));
+      walls.add(foot.grain, pose.toLocal(foot.point), bodyOf(bonding, row.radius, d.norm(), inertia), {.rest = d.norm()});
     }
   } else {
     for (const BondedPair& pair : bondablePairs(bonding, number, world.model.seed, grains)) {
@@ -404,7 +406,7 @@ void BondPass::make(const World& world, std::size_t number) {
       const GrainRow &a = state.rows[i], &b = state.rows[j];
       const Vec3 d = between(world, a, b);
       if (step_ > 0) silenced_ += world.contactEnergy(pair.i, pair.j);
-      all.add(pair.i, pair.j, bodyOf(bonding, std::min(a.radius, b.radius), d.norm(), inertiaOf(a, b)), freshMemory(d));
+      all.add(pair.i, pair.j, bodyOf(bonding, std::min(a.radius, b.radius), d.norm(), inertiaOf(a, b)), {.rest = d.norm()});
     }
   }
   const std::size_t made = all.size() + walls.foot.size() - before;
@@ -416,7 +418,9 @@ void BondPass::make(const World& world, std::size_t number) {
 
 namespace {
 double storedIn(const World& world, const BondKind& constants, const BondColumns& bonds, std::size_t k, const GrainRow& a, const GrainRow& b) {
-  const BondStrain strain = strainOf(bonds.memory(k), distanceOf(world, a, b));
+  const Vec3 branch = between(world, a, b);
+  const double r = branch.norm();
+  const BondStrain strain = strainOf(bonds.memory(k), directionOf(branch, r), r);
   return springProduct(springsOf(bonds.body(k), constants.shearOverNormal), strain, strain);
 }
 }  // namespace
@@ -484,7 +488,7 @@ void BondPass::show(const World& world, Snapshot& snapshot) const {
     const Vec3 a = positionOf(first), b = a - between(world, first, second[static_cast<std::size_t>(bonds.j[k])]);
     const BondBody body = bonds.body(k);
     const double r = (a - b).norm();
-    const BondPull pull = pullOf(springsOf(body, kind.constants.shearOverNormal), strainOf(bonds.memory(k), r));
+    const BondPull pull = pullOf(springsOf(body, kind.constants.shearOverNormal), strainOf(bonds.memory(k), directionOf(a - b, r), r));
     snapshot.bonds.push_back({a, b, body.radius, bondLoad(kind.constants.strength, body, pull, r), -1});
   });
   for (const Break& each : breaks_) snapshot.bonds.push_back({each.first, each.second, each.radius, 0, world.time - each.time});

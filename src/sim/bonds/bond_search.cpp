@@ -87,23 +87,13 @@ BondInertia inertiaOf(const GrainRow& a, const GrainRow& b) {
 BondBody bodyOf(const Bonding& bonding, double smaller, double length, const BondInertia& inertia) {
   BondBody body{};
   body.radius = bonding.radius * smaller;
-  body.stiffness = bonding.modulus > 0 ? bonding.modulus / length : bonding.stiffness;
+  const double radius2 = body.radius * body.radius, stiffness = bonding.modulus > 0 ? bonding.modulus / length : bonding.stiffness;
+  body.along = stiffness * bondPi * radius2;
+  body.bend = 0.25 * body.along * radius2;
   body.length = length;
-  const double normal = body.stiffness * bondPi * body.radius * body.radius;
-  body.critical = 2 * std::sqrt(normal / inertia.inverseMass);
-  body.bendCritical = 2 * std::sqrt(0.25 * normal * body.radius * body.radius / inertia.inverseMoment);
+  body.critical = 2 * std::sqrt(body.along / inertia.inverseMass);
+  body.bendCritical = 2 * std::sqrt(body.bend / inertia.inverseMoment);
   return body;
-}
-
-BondMemory freshMemory(const Vec3& d) {
-  const double r = d.norm();
-  int least = 0;
-  d.cwiseAbs().minCoeff(&least);
-  const Vec3 t = d.cross(Vec3::Unit(least)).normalized();
-  BondMemory memory{};
-  memory.t = {t.x(), t.y(), t.z()};
-  memory.rest = r;
-  return memory;
 }
 
 }  // namespace tsubu::sim

@@ -47,7 +47,4 @@ BondInertia inertiaOf(const GrainRow& a, const GrainRow& b);
 /// A bond of this kind between spheres whose smaller radius is `smaller`, at distance `length`.
 BondBody bodyOf(const Bonding& bonding, double smaller, double length, const BondInertia& inertia);
 
-/// A bond that is not strained, along d = x_i − x_j.
-BondMemory freshMemory(const Vec3& d);
-
 }  // namespace tsubu::sim

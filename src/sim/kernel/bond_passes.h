@@ -79,16 +79,17 @@ void gatherBonds(const BondRows& first, const BondRows& second, const std::int32
 
 TSUBU_INLINE V3 at(const BondStage::Column* columns, int q) { return {columns[0][q], columns[1][q], columns[2][q]}; }
 TSUBU_INLINE void put(BondStage::Column* columns, int q, V3 v) { columns[0][q] = v.x, columns[1][q] = v.y, columns[2][q] = v.z; }
-TSUBU_INLINE BondMotion at(const BondStage::Motion& motion, int q) {
-  const V3 i = at(motion.surfaceI, q), j = at(motion.surfaceJ, q);
-  return {at(motion.velocity, q), i + j, motion.perRadiusI[q] * i - motion.perRadiusJ[q] * j};
-}
+TSUBU_INLINE V3 at(double* const* columns, int q) { return {columns[0][q], columns[1][q], columns[2][q]}; }
+TSUBU_INLINE void put(double* const* columns, int q, V3 v) { columns[0][q] = v.x, columns[1][q] = v.y, columns[2][q] = v.z; }
 
-TSUBU_INLINE BondAxis axisAt(const BondStage& s, int q) { return {at(s.n0, q), at(s.n, q), s.r0[q], s.r[q], s.perRadiusSum[q]}; }
-TSUBU_INLINE BondStrain strainAt(const BondStage::Column* c, int q) { return {c[0][q], c[1][q], c[2][q], c[3][q], c[4][q], c[5][q]}; }
-TSUBU_INLINE void put(BondStage::Column* c, int q, const BondStrain& a) {
-  c[0][q] = a.stretch, c[1][q] = a.shearT, c[2][q] = a.shearB, c[3][q] = a.twist, c[4][q] = a.bendT, c[5][q] = a.bendB;
+TSUBU_INLINE V3 spinSumAt(const BondStage::Motion& motion, int q) { return at(motion.surfaceI, q) + at(motion.surfaceJ, q); }
+TSUBU_INLINE V3 spinAt(const BondStage::Motion& motion, int q) {
+  return motion.perRadiusI[q] * at(motion.surfaceI, q) - motion.perRadiusJ[q] * at(motion.surfaceJ, q);
 }
+TSUBU_INLINE BondMotion at(const BondStage::Motion& motion, int q) { return {at(motion.velocity, q), spinSumAt(motion, q), spinAt(motion, q)}; }
+TSUBU_INLINE BondLength lengthAt(const BondStage& s, int q) { return {s.r[q], s.perR[q], s.perRadiusSum[q], s.perMiddle2[q]}; }
+TSUBU_INLINE BondPath pathAt(const BondStage& s, int q) { return {at(s.n, q), at(s.rotation, q), at(s.sheared, q)}; }
+TSUBU_INLINE BondRotation rotationAt(const BondStage& s, int q) { return {at(s.rotation, q), s.scale[q]}; }
 
 /// A chunk of the columns of bonds.
 struct BondChunk {
@@ -97,77 +98,72 @@ struct BondChunk {
   BondChunk(BondColumns& bonds, std::size_t first) {
     for (std::size_t c = 0; c < BondColumns::columns; ++c) column[c] = bonds.column[c].data() + first;
   }
+  TSUBU_INLINE BondMemory memory(int q) const {
+    return {at(column + BondColumns::shearX, q), at(column + BondColumns::turnX, q), column[BondColumns::rest][q]};
+  }
 };
 
-// The law in four loops. In one, the chain of dependent operations is longer than what a processor looks ahead, and it waits for each bond.
+// The law in several loops. In one, the chain of dependent operations is longer than what a processor looks ahead, and it waits for each
+// bond; most of all for roots and quotients, which end a loop therefore.
 
-void findAxes(int count, double dt, BondStage& s) {
+void findPaths(int count, double dt, BondStage& s) {
   TSUBU_BONDS_INDEPENDENT
   for (int q = 0; q < count; ++q) {
-    const BondAxis axis = axisOf(at(s.d, q), s.radiusSum[q], at(s.half.velocity, q), dt);
-    put(s.n0, q, axis.n0);
-    put(s.n, q, axis.n);
-    s.r0[q] = axis.r0, s.r[q] = axis.r;
-    s.perRadiusSum[q] = axis.perRadiusSum;
+    const BondLength length = lengthOf(at(s.d, q), s.radiusSum[q], at(s.half.velocity, q), dt);
+    s.r[q] = length.r, s.perR[q] = length.perR, s.perRadiusSum[q] = length.perRadiusSum, s.perMiddle2[q] = length.perMiddle2;
   }
-}
-
-void turnFrames(const BondChunk& bonds, int count, double dt, BondStage& s) {
-  double* const tx = bonds.column[BondColumns::tx];
-  double* const ty = bonds.column[BondColumns::ty];
-  double* const tz = bonds.column[BondColumns::tz];
   TSUBU_BONDS_INDEPENDENT
   for (int q = 0; q < count; ++q) {
-    const BondFrame frame = turned({tx[q], ty[q], tz[q]}, axisAt(s, q), at(s.half.surfaceI, q) + at(s.half.surfaceJ, q), dt);
-    tx[q] = frame.t.x, ty[q] = frame.t.y, tz[q] = frame.t.z;
-    put(s.b, q, frame.b);
-    put(s.sumT, q, frame.sumT);
-    put(s.sumB, q, frame.sumB);
+    const BondPath path = pathOf(at(s.d, q), lengthAt(s, q), at(s.half.velocity, q), spinSumAt(s.half, q), dt);
+    put(s.n, q, path.n);
+    put(s.rotation, q, path.rotation);
+    put(s.sheared, q, path.sheared);
   }
+  TSUBU_BONDS_INDEPENDENT
+  for (int q = 0; q < count; ++q) s.scale[q] = scaleOf(at(s.rotation, q));
 }
 
-template <BondDamping damping, bool keepsBefore>
+template <BondDamping damping, bool accounts>
 void stretchBonds(const BondKind& given, const BondChunk& bonds, int count, double dt, BondStage& s) {
-  using Name = BondColumns;
+  constexpr bool relaxes = damping == BondDamping::exponential;
   const BondKind kind = given;  // a copy that no store can change
-  double* const shearT = bonds.column[Name::shearT];
-  double* const shearB = bonds.column[Name::shearB];
-  double* const twist = bonds.column[Name::twist];
-  double* const bendT = bonds.column[Name::bendT];
-  double* const bendB = bonds.column[Name::bendB];
-  double* const rest = bonds.column[Name::rest];
+  double* const* const shear = bonds.column + BondColumns::shearX;
+  double* const* const turn = bonds.column + BondColumns::turnX;
+  double* const rest = bonds.column[BondColumns::rest];
+  const double* const along = bonds.column[BondColumns::along];
+  const double* const bend = bonds.column[BondColumns::bend];
   TSUBU_BONDS_INDEPENDENT
   for (int q = 0; q < count; ++q) {
-    BondMemory memory{{}, shearT[q], shearB[q], twist[q], bendT[q], bendB[q], rest[q]};
-    const BondStrain before = stretchBond<damping>(kind, axisAt(s, q), at(s.sumT, q), at(s.sumB, q), at(s.half, q), dt, memory);
-    shearT[q] = memory.shearT, shearB[q] = memory.shearB;
-    twist[q] = memory.twist, bendT[q] = memory.bendT, bendB[q] = memory.bendB;
-    if constexpr (damping == BondDamping::exponential) rest[q] = memory.rest;
-    if constexpr (keepsBefore) put(s.before, q, before);
+    BondMemory memory{at(shear, q), at(turn, q), relaxes ? rest[q] : 0};
+    const BondBody body{0, relaxes ? along[q] : 0, relaxes ? bend[q] : 0, 0, 0, 0};
+    const double r0 = relaxes ? lengthBefore(at(s.d, q), at(s.half.velocity, q), dt) : 0;
+    const double relaxed = stretchBond<damping>(kind, body, pathAt(s, q), rotationAt(s, q), spinAt(s.half, q), r0, s.r[q], dt, memory);
+    put(shear, q, memory.shear);
+    put(turn, q, memory.turn);
+    if constexpr (relaxes) rest[q] = memory.rest;
+    if constexpr (relaxes && accounts) s.relaxed[q] = relaxed;
   }
 }
 
-template <BondDamping damping, bool breakable>
+template <BondDamping damping, bool breakable, bool accounts>
 void pullBonds(const BondKind& given, const BondChunk& bonds, int count, double dt, const BondStage::Motion& instant, BondStage& s) {
   using Name = BondColumns;
-  constexpr bool relaxes = damping == BondDamping::exponential;
   const BondKind kind = given;
   const auto& c = bonds.column;
   TSUBU_BONDS_INDEPENDENT
   for (int q = 0; q < count; ++q) {
-    const BondMemory memory{{c[Name::tx][q], c[Name::ty][q], c[Name::tz][q]}, c[Name::shearT][q], c[Name::shearB][q],
-                            c[Name::twist][q], c[Name::bendT][q], c[Name::bendB][q], c[Name::rest][q]};
+    const BondMemory memory = bonds.memory(q);
     // What does not relax still has its first length as the length at rest: a column less to read.
-    const double length = relaxes ? c[Name::length][q] : memory.rest;
-    const BondBody body{c[Name::radius][q], c[Name::stiffness][q], length, c[Name::critical][q], c[Name::bendCritical][q]};
-    const BondForce f = pullBond<damping, breakable>(kind, body, memory, relaxes ? strainAt(s.before, q) : BondStrain{}, at(s.n, q), at(s.b, q),
-                                                     s.r[q], s.perRadiusSum[q], dampsMotion<damping> ? at(instant, q) : BondMotion{}, dt);
+    const double length = damping == BondDamping::exponential ? c[Name::length][q] : memory.rest;
+    const BondBody body{breakable ? c[Name::radius][q] : 0, c[Name::along][q], c[Name::bend][q], length,
+                        dampsMotion<damping> ? c[Name::critical][q] : 0, dampsMotion<damping> ? c[Name::bendCritical][q] : 0};
+    const BondForce f = pullBond<damping, breakable>(kind, body, memory, at(s.n, q), s.r[q], s.perRadiusSum[q],
+                                                     dampsMotion<damping> ? at(instant, q) : BondMotion{}, dt);
     const bool holds = !breakable || f.holds;
     put(s.force, q, select(holds, f.force, {0, 0, 0}));
     put(s.coupleI, q, select(holds, f.couple - s.half.perRadiusI[q] * f.moment, {0, 0, 0}));
     put(s.coupleJ, q, select(holds, f.couple + s.half.perRadiusJ[q] * f.moment, {0, 0, 0}));
-    if constexpr (dampsMotion<damping>) s.loss[q] = holds ? f.loss : 0;
-    if constexpr (relaxes) s.relaxed[q] = f.relaxed;
+    if constexpr (dampsMotion<damping> && accounts) s.loss[q] = holds ? f.loss : 0;
     if constexpr (breakable) s.broken[q] = holds ? 0 : 1;
   }
 }
@@ -219,8 +215,18 @@ inline void scatterBonds(const BondRows& first, const BondRows& second, const st
   if (q < count) scatterFourBonds(i, j, is + q, js + q, count - q, q, s);
 }
 
+/// What the springs of one bond of a chunk held half a step ago.
+template <BondDamping damping>
+double heldBy(const BondKind& kind, const BondBody& body, const BondMemory& memory, double dt, const BondStage& s, int q) {
+  const BondStrain now = strainOf(memory, at(s.n, q), s.r[q]);
+  const double r0 = lengthBefore(at(s.d, q), at(s.half.velocity, q), dt);
+  const BondStrain by = strainBy(pathAt(s, q), rotationAt(s, q), spinAt(s.half, q), r0, s.r[q], dt);
+  return springProduct(springsOf(body, kind.shearOverNormal), strainBefore<damping>(kind, now, by, dt), now);
+}
+
 /// Names the bonds of a chunk that break.
-inline void noteBroken(const BondKind& kind, const BondColumns& bonds, std::size_t from, int count, const BondStage& s, BondFindings& found) {
+template <BondDamping damping>
+void noteBroken(const BondKind& kind, const BondColumns& bonds, std::size_t from, int count, double dt, const BondStage& s, BondFindings& found) {
   double broken[8] = {};
   addToLanes(s.broken, count, broken);
   if (BondFindings::sum(broken) == 0) return;
@@ -228,56 +234,55 @@ inline void noteBroken(const BondKind& kind, const BondColumns& bonds, std::size
     if (s.broken[q] == 0) continue;
     const std::size_t k = from + static_cast<std::size_t>(q);
     found.broken.push_back(static_cast<std::int32_t>(k));
-    found.released += springProduct(springsOf(bonds.body(k), kind.shearOverNormal), strainAt(s.before, q), strainOf(bonds.memory(k), s.r[q]));
+    found.released += heldBy<damping>(kind, bonds.body(k), bonds.memory(k), dt, s, q);
   }
 }
 
 /// Asks for the columns of a chunk ahead of time: they are too many streams for the processor to see.
-template <BondDamping damping>
+template <BondDamping damping, bool breakable>
 TSUBU_INLINE void askFor(const BondChunk& bonds) {
   for (int c = 0; c < BondColumns::columns; ++c) {
+    if (c == BondColumns::radius && !breakable) continue;
     if (c == BondColumns::length && damping != BondDamping::exponential) continue;
     if ((c == BondColumns::critical || c == BondColumns::bendCritical) && !dampsMotion<damping>) continue;
     for (int q = 0; q < bondChunk; q += 8) __builtin_prefetch(bonds.column[c] + q, 1, 3);
   }
 }
 
-template <BondDamping damping, bool breakable>
+template <BondDamping damping, bool breakable, bool accounts>
 void passBonds(const BondKind& kind, BondColumns& bonds, const BondRows& first, const BondRows& second, double dt, BondStage& stage,
                BondFindings& found) {
-  constexpr bool relaxes = damping == BondDamping::exponential;
   const std::size_t size = bonds.size();
   for (std::size_t from = 0; from < size; from += bondChunk) {
     const int count = static_cast<int>(size - from < bondChunk ? size - from : bondChunk);
     const std::int32_t* const is = bonds.i.data() + from;
     const std::int32_t* const js = bonds.j.data() + from;
     const BondChunk chunk(bonds, from);
-    if (from + 2 * bondChunk <= size) askFor<damping>({bonds, from + bondChunk});
+    if (from + 2 * bondChunk <= size) askFor<damping, breakable>({bonds, from + bondChunk});
     gatherBonds<dampsMotion<damping>>(first, second, is, js, count, stage);
-    findAxes(count, dt, stage);
-    turnFrames(chunk, count, dt, stage);
-    stretchBonds<damping, breakable || relaxes>(kind, chunk, count, dt, stage);
-    pullBonds<damping, breakable>(kind, chunk, count, dt, first.half ? stage.now : stage.half, stage);
-    if constexpr (dampsMotion<damping>) addToLanes(stage.loss, count, found.loss);
-    if constexpr (relaxes) addToLanes(stage.relaxed, count, found.relaxed);
-    if constexpr (breakable) noteBroken(kind, bonds, from, count, stage, found);
+    findPaths(count, dt, stage);
+    stretchBonds<damping, accounts>(kind, chunk, count, dt, stage);
+    pullBonds<damping, breakable, accounts>(kind, chunk, count, dt, first.half ? stage.now : stage.half, stage);
+    if constexpr (dampsMotion<damping> && accounts) addToLanes(stage.loss, count, found.loss);
+    if constexpr (damping == BondDamping::exponential && accounts) addToLanes(stage.relaxed, count, found.relaxed);
+    if constexpr (breakable) noteBroken<damping>(kind, bonds, from, count, dt, stage, found);
     scatterBonds(first, second, is, js, count, stage);
   }
 }
 
-BondKernel bondPassFor(BondDamping damping, bool breakable) {
-  const auto pick = [breakable]<BondDamping d>() -> BondKernel { return breakable ? &passBonds<d, true> : &passBonds<d, false>; };
-  switch (damping) {
-    case BondDamping::percent:
-      return pick.template operator()<BondDamping::percent>();
-    case BondDamping::exponential:
-      return pick.template operator()<BondDamping::exponential>();
-    case BondDamping::viscous:
-      return pick.template operator()<BondDamping::viscous>();
-    case BondDamping::none:
-      break;
+template <BondDamping damping>
+BondKernel bondPassOf(BondPassKind kind) {
+  if (kind.accounts) return kind.breakable ? &passBonds<damping, true, true> : &passBonds<damping, false, true>;
+  return kind.breakable ? &passBonds<damping, true, false> : &passBonds<damping, false, false>;
+}
+BondKernel bondPassFor(BondPassKind kind) {
+  switch (kind.damping) {
+    case BondDamping::percent: return bondPassOf<BondDamping::percent>(kind);
+    case BondDamping::exponential: return bondPassOf<BondDamping::exponential>(kind);
+    case BondDamping::viscous: return bondPassOf<BondDamping::viscous>(kind);
+    case BondDamping::none: break;
   }
-  return pick.template operator()<BondDamping::none>();
+  return bondPassOf<BondDamping::none>(kind);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// The inner loops, compiled once for each instruction set and chosen when the program starts. All give the same bits. Those that know no
-// law are a translation unit of their own (grain_kernels.h): a change of them compiles in seconds, one of the laws' takes minutes.
+// The inner loops, compiled once for each instruction set and chosen when the program starts. All give the same bits. Contacts,
+// bonds, and what knows no law (grain_kernels.h) are translation units of their own: a change of the last two compiles in seconds.
 
 #include <cstddef>
 #include <cstdint>
@@ -78,7 +78,7 @@ struct Kernels {
   PairKernel (*pairPass)(std::size_t law, PassKind kind);
   PairKernelIn<float> (*singlePairPass)(std::size_t law, PassKind kind);
   WallKernel (*wallPass)(std::size_t law, PassKind kind);
-  BondKernel (*bonds)(BondDamping, bool breakable);       ///< all of them
+  BondKernel (*bonds)(BondPassKind);                      ///< all of them
   const GrainKernels* grains;                             ///< those that know no law
 };
 
