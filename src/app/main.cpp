@@ -5,14 +5,11 @@
 #include <new>
 #include <vector>
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "app/chosen_setting.h"
+#include "app/large_arrays.h"
 #include "app/messages.h"
 #include "app/run.h"
 #include "app/stability.h"
@@ -137,10 +134,6 @@ int mainOf(int argc, char** argv) {
 }  // namespace tsubu::app
 
 int main(int argc, char** argv) {
-#ifdef __GLIBC__
-  // What large arrays leave behind goes back to the system at once, so that old and new neighbour lists do not add up in large beds. Smaller
-  // arrays are used again: pages that come anew cost time.
-  mallopt(M_MMAP_THRESHOLD, 4 * 1024 * 1024);
-#endif
+  tsubu::app::returnLargeArrays();
   return tsubu::app::mainOf(argc, argv);
 }

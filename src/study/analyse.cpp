@@ -106,7 +106,7 @@ void analyseObservable(Study& study, std::size_t k) {
       d.error = c.missed ? infinite : std::abs(meanOf(c.differences)) / info.scale;
       d.noise = c.missed ? 0 : noiseOf(c.differences);
     }
-    d.floor = std::max(d.noise, info.bar);
+    d.floor = std::max({d.noise, info.bar, Deviation::rounding});
     point.deviations.push_back(d);
   }
   study.observables.push_back(info);

@@ -23,7 +23,7 @@ std::string percent(double share) {
 // What the table says of an observable at a setting.
 std::string verdict(const Deviation& deviation, bool known) {
   if (!known) return "-";
-  if (deviation.none() && deviation.floor == 0) return "none";
+  if (deviation.none() && deviation.floor <= Deviation::rounding) return "none";
   return deviation.none() ? fmt::format("none (< {})", percent(deviation.floor)) : percent(deviation.error);
 }
 

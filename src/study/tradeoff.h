@@ -33,7 +33,10 @@ struct Deviation {
   double mean = 0;   ///< of the observable itself, in its unit
   double error = 0;  ///< |mean difference|; infinite where a run did not come to it and the reference did
   double noise = 0;  ///< 95 %: what the difference of two equal settings may be by the seeds alone
-  double floor = 0;  ///< noise, or the reference's own error where that is larger: a smaller difference is none
+  /// What the last digits of a sum do: two loops that compute the same differ by so much.
+  static constexpr double rounding = 1e-12;
+
+  double floor = 0;  ///< noise, the reference's own error, or rounding, the largest of them: a smaller difference is none
 
   bool none() const { return error <= floor; }
   /// What the error is not above, for all that is known: what a promise can be made of.

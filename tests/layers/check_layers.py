@@ -40,6 +40,7 @@ HOMES = {
     "malloc.h": {"app"},
     "unistd.h": {"app", "io"},
     "sys/ioctl.h": {"app"},
+    "sys/mman.h": {"app"},
     "sys/wait.h": {"app"},
     "spawn.h": {"app"},
     "fcntl.h": {"app"},

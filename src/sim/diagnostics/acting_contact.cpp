@@ -6,8 +6,9 @@ namespace tsubu::sim {
 
 template <class Real>
 ActingContact contactIn(const StageIn<Real>& s, int q, std::int32_t first, std::int32_t second, bool rolls) {
-  const Real distance = s.radiusSum[q] - s.overlap[q];  // the kernel has left the direction in (dx, dy, dz)
-  return {first, second, distance * Vec3(s.dx[q], s.dy[q], s.dz[q]), Vec3(s.fx[q], s.fy[q], s.fz[q]),
+  const Real distance = s.radiusSum[q] - s.overlap[q];
+  const Vec3 along(s.dx[q], s.dy[q], s.dz[q]);  // with friction the kernel has left the direction here, otherwise the branch
+  return {first, second, distance * along.normalized(), Vec3(s.fx[q], s.fy[q], s.fz[q]),
           rolls ? Vec3(s.mx[q], s.my[q], s.mz[q]) : Vec3(Vec3::Zero())};
 }
 

@@ -30,46 +30,57 @@ void findDirections(int count, StageIn<Real>& s) {
   for (int q = 0; q < count; ++q) {
     const V3In<Real> d{s.dx[q], s.dy[q], s.dz[q]};
     const Real distance = norm(d), safeDistance = larger(distance, leastDivisor<Real>);
-    // One division for three reciprocals: divisions and roots are what this loop waits for.
+    // One division for all reciprocals: divisions and roots are what this loop waits for. Only arms want that of the sum of the radii.
+    const Real sum = Law::turns ? s.radiusSum[q] : 1, mass = s.inverseMassSum[q];
     Real reciprocal = 1;
     if constexpr (Law::readsRadius) {
-      const Real all = 1 / (safeDistance * s.radiusSum[q] * s.inverseMassSum[q] * s.inverseRadiusSum[q]);
+      const Real all = 1 / (safeDistance * sum * mass * s.inverseRadiusSum[q]);
       reciprocal = all * s.inverseRadiusSum[q];
-      s.effectiveRadius[q] = all * (safeDistance * s.radiusSum[q] * s.inverseMassSum[q]);
+      s.effectiveRadius[q] = all * (safeDistance * sum * mass);
     } else {
-      reciprocal = 1 / (safeDistance * s.radiusSum[q] * s.inverseMassSum[q]);
+      reciprocal = 1 / (safeDistance * sum * mass);
     }
-    const Real perDistance = reciprocal * s.radiusSum[q] * s.inverseMassSum[q];
-    s.effectiveMass[q] = reciprocal * safeDistance * s.radiusSum[q];
-    if constexpr (Law::turns) {
-      const Real perRadiusSum = reciprocal * safeDistance * s.inverseMassSum[q];
-      s.perRadiusSum[q] = perRadiusSum;
-      s.arm[q] = distance * perRadiusSum;
-    }
+    const Real perDistance = reciprocal * sum * mass;
+    s.effectiveMass[q] = reciprocal * safeDistance * sum;
     if constexpr (single<Real>)
       s.overlap[q] = s.gap[q] / (s.radiusSum[q] + distance);
     else
       s.overlap[q] = s.radiusSum[q] - distance;
-    s.dx[q] = perDistance * d.x, s.dy[q] = perDistance * d.y, s.dz[q] = perDistance * d.z;
+    if constexpr (Law::turns) {
+      const Real perRadiusSum = reciprocal * safeDistance * mass;
+      s.perRadiusSum[q] = perRadiusSum;
+      s.arm[q] = distance * perRadiusSum;
+      s.dx[q] = perDistance * d.x, s.dy[q] = perDistance * d.y, s.dz[q] = perDistance * d.z;
+    } else {
+      s.perDistance[q] = perDistance;
+    }
   }
 }
 
-/// Velocities along the normal and across it, over the relative velocities.
-template <class Law, bool weighted, class Real>
+/// The direction of a contact. Where only the loop of the law asks for it, it is made there.
+template <class Law, class Real>
+TSUBU_INLINE V3In<Real> directionAt(const StageIn<Real>& s, int q) {
+  const V3In<Real> d{s.dx[q], s.dy[q], s.dz[q]};
+  if constexpr (Law::turns)
+    return d;
+  else
+    return s.perDistance[q] * d;
+}
+
+/// Velocities along the normal and across it, over the relative velocities: for laws with friction.
+template <bool weighted, class Real>
 void findSlip(int count, StageIn<Real>& s) {
   TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) {
     const V3In<Real> n{s.dx[q], s.dy[q], s.dz[q]}, dv{s.dvx[q], s.dvy[q], s.dvz[q]};
     const Real separationSpeed = dot(dv, n);
     s.separationSpeed[q] = separationSpeed;
-    if constexpr (Law::turns) {
-      const V3In<Real> spin{s.sx[q], s.sy[q], s.sz[q]};
-      const V3In<Real> slip = dv - separationSpeed * n - s.arm[q] * cross(spin, n);
-      s.dvx[q] = slip.x, s.dvy[q] = slip.y, s.dvz[q] = slip.z;
-      // Between grains the mean is weighted with the radii, which the sum of r ω gives for nothing; any mean turns with the pair.
-      const V3In<Real> frameSpin = weighted ? V3In<Real>{s.ox[q], s.oy[q], s.oz[q]} : s.perRadiusSum[q] * spin;
-      s.frameSpin[q] = dot(frameSpin, n);
-    }
+    const V3In<Real> spin{s.sx[q], s.sy[q], s.sz[q]};
+    const V3In<Real> slip = dv - separationSpeed * n - s.arm[q] * cross(spin, n);
+    s.dvx[q] = slip.x, s.dvy[q] = slip.y, s.dvz[q] = slip.z;
+    // Between grains the mean is weighted with the radii, which the sum of r ω gives for nothing; any mean turns with the pair.
+    const V3In<Real> frameSpin = weighted ? V3In<Real>{s.ox[q], s.oy[q], s.oz[q]} : s.perRadiusSum[q] * spin;
+    s.frameSpin[q] = dot(frameSpin, n);
   }
 }
 
@@ -95,9 +106,9 @@ void carryMemory(Real turning, int count, StageIn<Real>& s, Real* const (&column
 template <class Law, class Real>
 TSUBU_INLINE ContactIn<Real> contactAt(const StageIn<Real>& s, int q) {
   ContactIn<Real> c;
-  c.n = {s.dx[q], s.dy[q], s.dz[q]};
+  c.n = directionAt<Law>(s, q);
   c.overlap = s.overlap[q];
-  c.separationSpeed = s.separationSpeed[q];
+  c.separationSpeed = Law::turns ? s.separationSpeed[q] : dot(V3In<Real>{s.dvx[q], s.dvy[q], s.dvz[q]}, c.n);
   c.effectiveMass = s.effectiveMass[q];
   c.inverseEffectiveMass = s.inverseMassSum[q];
   c.rootMass = s.rootMass[q];
@@ -172,7 +183,7 @@ void compute(const PassContext& context, int count, StageIn<Real>& s, Real* cons
   ahead.ask<Real>();
   findDirections<Law>(count, s);
   ahead.ask<Real>();
-  findSlip<Law, weighted>(count, s);
+  if constexpr (Law::turns) findSlip<weighted>(count, s);
   ahead.ask<Real>();
   if (!oneClass || Law::Normal::readsRootMass(only.normal))
     findRootMass(count, s);

@@ -18,7 +18,7 @@ template <class Real>
 struct alignas(64) StageIn {
   using Column = Real[chunkSize];
 
-  // In, for every law: differences i − j and sums i + j of the two rows. (dx, dy, dz) becomes the direction n.
+  // In, for every law: differences i − j and sums i + j of the two rows. With friction (dx, dy, dz) becomes the direction n.
   Column dx, dy, dz, radiusSum;
   Column dvx, dvy, dvz, inverseMassSum;
   Column gap;               // single precision: (r_i + r_j)² − |x_ij|², subtracted in double: the overlap is a small difference
@@ -38,6 +38,7 @@ struct alignas(64) StageIn {
 
   // On the way.
   Column overlap, effectiveMass, rootMass, effectiveRadius;
+  Column perDistance;       // without friction: what makes n of (dx, dy, dz)
   Column separationSpeed, frameSpin;
   Column perRadiusSum, arm;  // 1/(r_i + r_j); distance over that sum, the share of its radius at which each grain is touched
 
