@@ -73,7 +73,7 @@ Commands describe(CLI::App& app, RunOptions& options, TradeoffOptions& study) {
     command->add_option("--study", options.study, "Folder of the study (out/NAME.tradeoff when not given)")->type_name("DIR");
   }
   commands.run->add_option("-o,--output", options.folder, "Folder for the results (out/NAME when not given)")->type_name("DIR");
-  commands.run->add_option("--threads", options.threads, "Threads of the simulation; the results do not depend on it (all cores when not given)")
+  commands.run->add_option("--threads", options.threads, "Threads of the simulation; the results do not depend on it (as many of the cores as help when not given)")
       ->check(CLI::Range(1, 1024));
   commands.run->add_option("--until", options.until, "End at this time instead of the scene's, in seconds")->check(CLI::NonNegativeNumber);
   commands.run->add_flag("!--no-frames", options.frames, "Simulate only");

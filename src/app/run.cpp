@@ -102,6 +102,7 @@ Run::Run(const RunOptions& options) : options_(options) {
   if (!scene.observe.empty()) observer_ = std::make_unique<study::Observer>(scene, scene.observe);
   simulation_ = std::make_unique<sim::Simulation>(std::move(built.model), report_.threads);
   pace_ = std::make_unique<scene::Pace>(report_.plan);
+  if (options.threads == 0) simulation_->chooseThreads();
   if (options.profile) simulation_->startProfile();
 }
 
@@ -192,6 +193,7 @@ void Run::report(const std::string& ended, const std::string& failure) {
     r.stateHash = fmt::format("{:016x}", sim.stateHash());
   }
   if (observer_) r.observables = observer_->results();
+  r.threadsUsed = simulation_->threadsUsed();
   if (options_.profile) noteProfile();
   if (r.plan.live) r.pace = *pace_;
   r.frames = film_ ? film_->frames() : 0;
@@ -202,7 +204,7 @@ void Run::report(const std::string& ended, const std::string& failure) {
 // What the parts of a step leave over: threads that wait for each other, and what is done once for all (ledger rows, snapshots).
 void Run::noteProfile() {
   const sim::Profile::Seconds seconds = simulation_->profile();
-  double left = report_.simulationTime * report_.threads;
+  double left = report_.simulationTime * report_.threadsUsed;
   for (std::size_t part = 0; part < seconds.size(); ++part) {
     left -= seconds[part];
     report_.profile.emplace_back(sim::nameOf(static_cast<sim::ProfilePart>(part)), seconds[part]);

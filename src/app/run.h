@@ -11,7 +11,7 @@ namespace tsubu::app {
 struct RunOptions {
   std::string scene;
   std::string folder;           ///< where the results go; empty: out/NAME of the scene
-  int threads = 0;              ///< 0: as many as the machine has cores
+  int threads = 0;              ///< 0: as many of the machine's cores as make the steps fast
   std::optional<double> until;  ///< s: ends here instead of at the scene's end
   scene::Overrides overrides;
   bool frames = true;

@@ -20,6 +20,7 @@ void writeReport(const std::filesystem::path& path, const RunReport& r) {
   json["ended"] = r.ended;
   if (!r.failure.empty()) json["failure"] = r.failure;
   json["threads"] = r.threads;
+  json["threads_used"] = r.threadsUsed;
   json["isa"] = r.isa;
   json["dt"] = r.plan.timeStep;
   json["dt_limit"] = r.plan.limit;

@@ -17,7 +17,8 @@ namespace tsubu::app {
 struct RunReport {
   std::string scene;         ///< path as given
   std::string title;
-  int threads = 1;
+  int threads = 1;         ///< that there were
+  double threadsUsed = 1;  ///< mean over the steps
   std::string isa;
   std::string setting;                        ///< of a study that was asked for; empty: the scene's own
   std::vector<std::string> settingOverrides;

@@ -21,47 +21,47 @@ inline void waitALittle(int looks) {
 }
 }  // namespace
 
-ThreadTeam::ThreadTeam(int threads) : shares_(static_cast<std::size_t>(threads)) {
+ThreadTeam::ThreadTeam(int threads) : seats_(static_cast<std::size_t>(threads)), used_(threads) {
   for (int thread = 1; thread < threads; ++thread) workers_.emplace_back([this, thread] { work(thread); });
 }
 
 ThreadTeam::~ThreadTeam() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-    ++round_;
-  }
-  wake_.notify_all();
+  stop_ = true;
+  begin(threads());
   for (std::thread& worker : workers_) worker.join();
 }
 
 void ThreadTeam::run(int tasks, const std::function<void(int, int)>& task) {
-  if (workers_.empty() || tasks <= 1) {
+  if (used_ == 1 || tasks <= 1) {
     for (int k = 0; k < tasks; ++k) task(k, 0);
     return;
   }
   task_ = &task;
-  for (int thread = 0; thread < threads(); ++thread) {
-    const auto first = [&](int share) { return static_cast<int>(static_cast<std::int64_t>(tasks) * share / threads()); };
-    Share& share = shares_[static_cast<std::size_t>(thread)];
-    share.next = first(thread);
-    share.end = first(thread + 1);
+  for (int thread = 0; thread < used_; ++thread) {
+    const auto first = [&](int share) { return static_cast<int>(static_cast<std::int64_t>(tasks) * share / used_); };
+    Seat& seat = seats_[static_cast<std::size_t>(thread)];
+    seat.next = first(thread);
+    seat.end = first(thread + 1);
   }
-  busy_ = static_cast<int>(workers_.size());
-  {
-    const std::lock_guard lock(mutex_);
-    ++round_;
-  }
-  wake_.notify_all();
+  busy_ = used_ - 1;
+  begin(used_);
   takeTasks(0);
   for (int looks = 0; busy_.load(std::memory_order_acquire) > 0; looks += looks < looksBeforeYield) waitALittle(looks);
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
+// Calls the first threads to a round.
+void ThreadTeam::begin(int threads) {
+  const std::lock_guard lock(mutex_);
+  round_ = Round{round_.load().number + 1, static_cast<std::uint32_t>(threads)};
+  for (int thread = 1; thread < threads; ++thread)
+    if (Seat& seat = seats_[static_cast<std::size_t>(thread)]; seat.asleep) seat.wake.notify_one();
+}
+
 void ThreadTeam::takeTasks(int thread) {
-  for (int n = 0; n < threads(); ++n) {
-    Share& share = shares_[static_cast<std::size_t>((thread + n) % threads())];
-    for (int k = share.next.fetch_add(1); k < share.end; k = share.next.fetch_add(1)) {
+  for (int n = 0; n < used_; ++n) {
+    Seat& seat = seats_[static_cast<std::size_t>((thread + n) % used_)];
+    for (int k = seat.next.fetch_add(1); k < seat.end; k = seat.next.fetch_add(1)) {
       try {
         (*task_)(k, thread);
       } catch (...) {
@@ -73,14 +73,17 @@ void ThreadTeam::takeTasks(int thread) {
 }
 
 void ThreadTeam::work(int thread) {
-  unsigned seen = 0;
+  Round seen{};
+  Seat& seat = seats_[static_cast<std::size_t>(thread)];
   for (;;) {
-    for (int looks = 0; looks < looksBeforeSleep && round_.load(std::memory_order_acquire) == seen; ++looks) waitALittle(looks);
-    if (round_.load(std::memory_order_acquire) == seen) {
+    for (int looks = 0; looks < looksBeforeSleep && !calls(seen, thread); ++looks) waitALittle(looks);
+    if (!calls(seen, thread)) {
       std::unique_lock lock(mutex_);
-      wake_.wait(lock, [&] { return round_.load() != seen; });
+      seat.asleep = true;
+      seat.wake.wait(lock, [&] { return calls(seen, thread); });
+      seat.asleep = false;
     }
-    ++seen;
+    seen = round_.load();
     if (stop_) return;
     takeTasks(thread);
     busy_.fetch_sub(1, std::memory_order_release);

@@ -23,7 +23,11 @@ class ThreadTeam {
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
 
-  int threads() const { return static_cast<int>(shares_.size()); }
+  int threads() const { return static_cast<int>(seats_.size()); }
+
+  /// From now on only the first so many threads work, 1 ≤ count ≤ threads(). The others sleep.
+  void use(int count) { used_ = count; }
+  int used() const { return used_; }
 
   /// Calls task(k, thread) for k in [0, tasks), thread in [0, threads()), and returns when all are done. Rethrows the first exception.
   void run(int tasks, const std::function<void(int, int)>& task);
@@ -31,21 +35,34 @@ class ThreadTeam {
  private:
   void work(int thread);
   void takeTasks(int thread);
+  void begin(int threads);
 
-  /// The tasks of a thread that nobody has taken yet. A cache line for itself: threads write here for every task.
-  struct alignas(64) Share {
-    std::atomic<int> next{0};
+  /// What is one thread's own. A cache line for itself: threads write here for every task.
+  struct alignas(64) Seat {
+    std::atomic<int> next{0};  ///< of its share of the tasks, what nobody has taken yet
     int end = 0;
+    bool asleep = false;
+    std::condition_variable wake;
   };
 
+  /// A round of tasks: its number, and how many threads take part. In one word: who reads it knows whether it is meant.
+  struct Round {
+    std::uint32_t number, threads;
+  };
+
+  bool calls(const Round& seen, int thread) const {
+    const Round now = round_.load(std::memory_order_acquire);
+    return now.number != seen.number && static_cast<int>(now.threads) > thread;
+  }
+
   std::vector<std::thread> workers_;
-  std::vector<Share> shares_;
+  std::vector<Seat> seats_;
+  int used_;
   const std::function<void(int, int)>* task_ = nullptr;
   alignas(64) std::atomic<int> busy_{0};
-  alignas(64) std::atomic<unsigned> round_{0};
+  alignas(64) std::atomic<Round> round_{};
   std::atomic<bool> stop_{false};
   std::mutex mutex_;
-  std::condition_variable wake_;
   std::exception_ptr failure_;
 };
 

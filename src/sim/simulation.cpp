@@ -1,6 +1,7 @@
 #include "sim/simulation.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -371,8 +372,23 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 void Simulation::advance(std::uint64_t steps) {
-  for (std::uint64_t k = 0; k < steps; ++k) impl_->step();
+  for (std::uint64_t k = 0; k < steps; ++k) impl_->stepWithChoice();
 }
+
+void Simulation::Impl::stepWithChoice() {
+  if (choice) team.use(choice->threads());
+  threadSteps += static_cast<std::uint64_t>(team.used());
+  if (!choice || !choice->listens()) {
+    step();
+    if (choice) choice->took(0);
+    return;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  step();
+  choice->took(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+void Simulation::chooseThreads() { impl_->choice.emplace(impl_->team.threads()); }
 
 void Simulation::setTimeStep(double dt) { impl_->setTimeStep(dt); }
 StepLimit Simulation::stableStep() { return impl_->stableStepNow(); }
@@ -385,6 +401,7 @@ const Counts& Simulation::counts() const { return impl_->counts; }
 const std::vector<LostGrain>& Simulation::lostGrains() const { return impl_->lost; }
 const std::vector<std::string>& Simulation::warnings() const { return impl_->warnings; }
 std::uint64_t Simulation::grainSteps() const { return impl_->grainSteps; }
+double Simulation::threadsUsed() const { return static_cast<double>(impl_->threadSteps) / std::max(1.0, static_cast<double>(impl_->steps)); }
 Ledger Simulation::ledger() { return impl_->ledgerNow(); }
 ContactSummary Simulation::contacts() { return impl_->contactsNow(); }
 std::vector<WallState> Simulation::movingWalls() { return impl_->movingWallsNow(); }

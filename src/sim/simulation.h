@@ -59,6 +59,8 @@ class Simulation {
  public:
   /// Takes a complete model. `threads` ≥ 1; the results do not depend on it. Throws Error(scene) when laws and properties do not fit.
   Simulation(Model model, int threads);
+  /// From now on uses as many of the threads as make the steps fast (core/thread_choice.h): few for few grains.
+  void chooseThreads();
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
@@ -78,6 +80,7 @@ class Simulation {
   const std::vector<LostGrain>& lostGrains() const;
   const std::vector<std::string>& warnings() const;  ///< one sentence each, in the order they came up
   std::uint64_t grainSteps() const;                  ///< sum over steps of the number of grains
+  double threadsUsed() const;                        ///< mean over the steps
 
   /// All of these evaluate the state at time(), forces included.
   Ledger ledger();

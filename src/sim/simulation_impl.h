@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/thread_choice.h"
 #include "core/thread_team.h"
 #include "sim/fields/gravity.h"
 #include "sim/integrate.h"
@@ -32,6 +33,7 @@ class Simulation::Impl {
 
   // The step.
   void step();
+  void stepWithChoice();
   /// The forces of the present instant, unless they are known. For an observer contacts are noted, if the model wants that.
   enum class For { step, observer };
   void computeForces(For whom = For::observer);
@@ -95,7 +97,8 @@ class Simulation::Impl {
   double nextTimeStep = 0;                  ///< s: asked for; 0: none
   bool changing = false;                    ///< the present step goes over to it
   StiffestMode stiffest;                    ///< of the network, as it was found last
-  std::uint64_t grainSteps = 0;
+  std::uint64_t grainSteps = 0, threadSteps = 0;
+  std::optional<ThreadChoice> choice;
   std::uint64_t stepsBetweenArrivals = 1;
   std::uint64_t turnInterval = turnEvery;   ///< steps between updates of the orientations; magnets need them all
   bool forcesKnown = false;

@@ -63,7 +63,7 @@ class Program(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.frames(), [f"{k:06}.png" for k in range(11)])
         report = self.report()
-        for key in ("version", "scene", "threads", "dt", "dt_limit_by", "steps", "simulated_time", "wall_time", "grain_steps_per_second",
+        for key in ("version", "scene", "threads", "threads_used", "dt", "dt_limit_by", "steps", "simulated_time", "wall_time", "grain_steps_per_second",
                     "grains", "lost", "removed", "energy_residual", "state_hash", "frames", "renderer"):
             self.assertIn(key, report)
         self.assertEqual((report["grains"], report["frames"], report["lost"], report["ended"]), (2, 11, 0, "complete"))

@@ -66,6 +66,26 @@ TEST_P(ThreadTeamOf, WakesAfterASleep) {
   }
 }
 
+// Fewer for a while, and more again; what is left out must not stand in the way of the others, asleep or awake.
+TEST_P(ThreadTeamOf, UsesAsManyAsItIsTold) {
+  ThreadTeam team(GetParam());
+  for (int round = 0; round < 200; ++round) {
+    const int used = 1 + round * 7 % team.threads();
+    team.use(used);
+    if (round % 50 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::vector<int> taken(40, 0);
+    std::atomic<int> highest = 0;
+    team.run(40, [&](int task, int thread) {
+      ++taken[static_cast<std::size_t>(task)];
+      int seen = highest.load();
+      while (thread > seen && !highest.compare_exchange_weak(seen, thread)) {
+      }
+    });
+    EXPECT_EQ(taken, std::vector<int>(40, 1));
+    EXPECT_LT(highest, used);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Threads, ThreadTeamOf, testing::Values(1, 2, 3, 8));
 
 TEST(ThreadTeam, CanBeMadeAndDroppedIdle) {
