@@ -27,10 +27,6 @@ double distanceOf(const World& world, const GrainRow& a, const GrainRow& b) { re
 
 V3 directionOf(const Vec3& branch, double length) { return {branch.x() / length, branch.y() / length, branch.z() / length}; }
 
-int slabOf(const Slabs& slabs, std::int32_t place) {
-  return static_cast<int>(std::upper_bound(slabs.first.begin(), slabs.first.end(), place) - slabs.first.begin()) - 1;
-}
-
 std::uint64_t keyOf(std::uint32_t a, std::uint32_t b) { return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b); }
 
 }  // namespace
@@ -163,15 +159,15 @@ void BondPass::settle(const World& world, Kind& kind, BondColumns& all, WallBond
   const auto count = static_cast<std::size_t>(world.slabs.count());
   std::vector<SlabBonds> slabs(count);
   BondColumns far;
-  std::vector<std::size_t> order(all.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto places = [&all](std::size_t k) { return std::pair(std::min(all.i[k], all.j[k]), std::max(all.i[k], all.j[k])); };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return places(a) < places(b); });
-  for (const std::size_t k : order) {
-    const auto [low, high] = places(k);
-    const int slab = slabOf(world.slabs, low);
+  // By places, lower and higher: numbers that compare at once.
+  std::vector<std::pair<std::uint64_t, std::size_t>> order(all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) order[k] = {keyOf(static_cast<std::uint32_t>(all.i[k]), static_cast<std::uint32_t>(all.j[k])), k};
+  std::sort(order.begin(), order.end());
+  for (const auto& [key, k] : order) {
+    const auto low = static_cast<std::int32_t>(key >> 32), high = static_cast<std::int32_t>(key & 0xffffffff);
+    const int slab = world.slabs.of(low);
     const GrainRow &a = world.state.rows[static_cast<std::size_t>(low)], &b = world.state.rows[static_cast<std::size_t>(high)];
-    const bool isNear = slabOf(world.slabs, high) <= slab + 1 && (!world.periods.any() || between(world, a, b) == positionOf(a) - positionOf(b));
+    const bool isNear = world.slabs.of(high) <= slab + 1 && (!world.periods.any() || between(world, a, b) == positionOf(a) - positionOf(b));
     (isNear ? slabs[static_cast<std::size_t>(slab)].near : far).take(all, k);
     const double sum = a.radius + b.radius;
     world.pairs.setTouch(world.slabs, low, high, touchOf(kind, all.at(BondColumns::rest, k), sum));
@@ -179,7 +175,7 @@ void BondPass::settle(const World& world, Kind& kind, BondColumns& all, WallBond
   std::vector<std::size_t> wallOrder(walls.foot.size());
   std::iota(wallOrder.begin(), wallOrder.end(), std::size_t{0});
   std::stable_sort(wallOrder.begin(), wallOrder.end(), [&](std::size_t a, std::size_t b) { return walls.bonds.i[a] < walls.bonds.i[b]; });
-  for (const std::size_t k : wallOrder) slabs[static_cast<std::size_t>(slabOf(world.slabs, walls.bonds.i[k]))].wall.take(walls, k);
+  for (const std::size_t k : wallOrder) slabs[static_cast<std::size_t>(world.slabs.of(walls.bonds.i[k]))].wall.take(walls, k);
   if (kind.bonding->wall) {
     for (SlabBonds& slab : slabs) slab.wall.place(world.model.walls[*kind.bonding->wall].motion, world.state.rows, world.time, world.way);
     slabs.front().wall.work = walls.work;

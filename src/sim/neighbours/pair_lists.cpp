@@ -224,8 +224,7 @@ constexpr double hardlyEver = 1e-12;
 template <class Visit>
 void visitPair(const SlabPairs& slab, const std::vector<std::int32_t>& is, const std::vector<std::int32_t>& js, std::int32_t i,
                std::int32_t j, Visit&& visit) {
-  const auto first = std::lower_bound(is.begin(), is.end(), i), last = std::upper_bound(first, is.end(), i);
-  for (auto at = first; at != last; ++at) {
+  for (auto at = std::lower_bound(is.begin(), is.end(), i); at != is.end() && *at == i; ++at) {
     const auto k = static_cast<std::size_t>(at - is.begin());
     if (slab.grainOf(js[k]) == j) visit(k);
   }
