@@ -5,7 +5,7 @@ usage: kernels_are_vectors.py OBJDUMP OBJECT...
 
 OBJECT: what a kernel file was compiled to, with the name of its instruction set (contacts_avx2.cpp.o, single_avx512.cpp.o, bonds_avx2.cpp.o). Every
 pass over contacts and bonds must have a fair share of operations on whole vectors of that width: those on single numbers are for the contacts that
-are left over at the end of a loop, and every loop has both.
+are left over at the end of a loop, and every loop has both. And no function that is not its own may be left in it as a copy that the linker could choose.
 """
 
 import re
@@ -35,15 +35,22 @@ def scalar_passes(objdump, file, register, precision):
     return [(name, *count) for name, count in operations.items() if count[0] < LEAST[precision] * count[1]], len(operations)
 
 
+def leaks(objdump, file):
+    """Functions of which the linker may take this copy for every processor: weak ones that are defined here."""
+    table = subprocess.run([objdump, "-t", "-C", file], capture_output=True, text=True, check=True).stdout
+    return [line.split(None, 5)[-1] for line in table.splitlines() if re.match(r"[0-9a-f]+ .w....F (?!\*UND\*)", line)]
+
+
 def main(objdump, *files):
-    failed = False
+    failed = not files
     for file in files:
-        kernel = re.search(rf"(contacts|single|bonds)_({'|'.join(WIDTH)})\.", file)
-        if not kernel:
+        part, isa = re.search(rf"(contacts|single|bonds|grains)_({'|'.join(WIDTH)})\.", file).groups()
+        for name in leaks(objdump, file):
+            print(f"{isa}, {part}: not inlined, and every processor may get this copy: {name}")
+            failed = True
+        if part == "grains":  # vectors of four, written as such
             continue
-        part, isa = kernel[1], kernel[2]
-        precision = "s" if part == "single" else "d"
-        scalar, passes = scalar_passes(objdump, file, WIDTH[isa], precision)
+        scalar, passes = scalar_passes(objdump, file, WIDTH[isa], "s" if part == "single" else "d")
         print(f"{isa}, {part}: {passes} passes, {len(scalar)} of them scalar")
         for name, vectors, numbers in scalar:
             print(f"  {vectors} on vectors, {numbers} on numbers:", name.replace("tsubu::sim::", "").replace("(anonymous namespace)::", ""))

@@ -189,7 +189,7 @@ template <BondDamping damping>
 struct BondRelaxation {
   double kept = 1, taken = 1;
 
-  BondRelaxation(const BondKind& kind, BondWay way, double dt) {
+  TSUBU_INLINE BondRelaxation(const BondKind& kind, BondWay way, double dt) {
     if constexpr (damping != BondDamping::exponential) return;
     const double half = 0.5 * kind.eta[way] * dt;
     kept = (1 - half) / (1 + half), taken = 1 / (1 + half);
@@ -234,7 +234,7 @@ TSUBU_INLINE double stretchBond(const BondKind& kind, const BondBody& body, cons
 
 /// The springs at the beginning of the step, in the directions of its end, from those at its end.
 template <BondDamping damping>
-BondStrain strainBefore(const BondKind& kind, const BondStrain& now, const BondStrain& by, double dt) {
+TSUBU_INLINE BondStrain strainBefore(const BondKind& kind, const BondStrain& now, const BondStrain& by, double dt) {
   return {BondRelaxation<damping>(kind, along, dt).before(now.stretch, by.stretch),
           BondRelaxation<damping>(kind, across, dt).before(now.shear, by.shear),
           BondRelaxation<damping>(kind, twisting, dt).before(now.twist, by.twist),
