@@ -31,7 +31,7 @@ void BondColumns::drop(const std::vector<char>& marked) {
 }
 
 BondBody BondColumns::body(std::size_t k) const {
-  return {at(radius, k), at(along, k), at(bend, k), at(length, k), at(critical, k), at(bendCritical, k)};
+  return {at(radius, k), at(springAlong, k), at(springBend, k), at(length, k), at(critical, k), at(bendCritical, k)};
 }
 
 BondMemory BondColumns::memory(std::size_t k) const {

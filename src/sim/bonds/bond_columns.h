@@ -12,7 +12,7 @@ namespace tsubu::sim {
 
 /// Everything about bonds between grains that lies along the list. The ends are places of grains, the lower id first.
 struct BondColumns {
-  enum Name { shearX, shearY, shearZ, turnX, turnY, turnZ, rest, along, bend, radius, length, critical, bendCritical, columns };
+  enum Name { shearX, shearY, shearZ, turnX, turnY, turnZ, rest, springAlong, springBend, radius, length, critical, bendCritical, columns };
 
   std::vector<std::int32_t> i, j;
   std::array<std::vector<double>, columns> column;

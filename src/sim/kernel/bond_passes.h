@@ -130,12 +130,12 @@ void stretchBonds(const BondKind& given, const BondChunk& bonds, int count, doub
   double* const* const shear = bonds.column + BondColumns::shearX;
   double* const* const turn = bonds.column + BondColumns::turnX;
   double* const rest = bonds.column[BondColumns::rest];
-  const double* const along = bonds.column[BondColumns::along];
-  const double* const bend = bonds.column[BondColumns::bend];
+  const double* const springAlong = bonds.column[BondColumns::springAlong];
+  const double* const springBend = bonds.column[BondColumns::springBend];
   TSUBU_BONDS_INDEPENDENT
   for (int q = 0; q < count; ++q) {
     BondMemory memory{at(shear, q), at(turn, q), relaxes ? rest[q] : 0};
-    const BondBody body{0, relaxes ? along[q] : 0, relaxes ? bend[q] : 0, 0, 0, 0};
+    const BondBody body{0, relaxes ? springAlong[q] : 0, relaxes ? springBend[q] : 0, 0, 0, 0};
     const double r0 = relaxes ? lengthBefore(at(s.d, q), at(s.half.velocity, q), dt) : 0;
     const double relaxed = stretchBond<damping>(kind, body, pathAt(s, q), rotationAt(s, q), spinAt(s.half, q), r0, s.r[q], dt, memory);
     put(shear, q, memory.shear);
@@ -155,7 +155,7 @@ void pullBonds(const BondKind& given, const BondChunk& bonds, int count, double 
     const BondMemory memory = bonds.memory(q);
     // What does not relax still has its first length as the length at rest: a column less to read.
     const double length = damping == BondDamping::exponential ? c[Name::length][q] : memory.rest;
-    const BondBody body{breakable ? c[Name::radius][q] : 0, c[Name::along][q], c[Name::bend][q], length,
+    const BondBody body{breakable ? c[Name::radius][q] : 0, c[Name::springAlong][q], c[Name::springBend][q], length,
                         dampsMotion<damping> ? c[Name::critical][q] : 0, dampsMotion<damping> ? c[Name::bendCritical][q] : 0};
     const BondForce f = pullBond<damping, breakable>(kind, body, memory, at(s.n, q), s.r[q], s.perRadiusSum[q],
                                                      dampsMotion<damping> ? at(instant, q) : BondMotion{}, dt);
