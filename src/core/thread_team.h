@@ -46,7 +46,7 @@ class ThreadTeam {
   };
 
   /// A round of tasks: its number, and how many threads take part. In one word: who reads it knows whether it is meant.
-  struct Round {
+  struct alignas(8) Round {
     std::uint32_t number, threads;
   };
 
