@@ -35,7 +35,7 @@ template <class Row, class Real>
 TSUBU_INLINE void gatherSpins(const Row* rows, const std::int32_t* is, const std::int32_t* js, int q, StageIn<Real>& s) {
   const Four<Real> signs{-1, -1, -1, 1};
   Four<Real> r[4];
-  for (int k = 0; k < 4; ++k) r[k] = spinRow(rows[is[k]]) + signs * spinRow(rows[js[k]]);
+  for (int k = 0; k < 4; ++k) r[k] = plusSigned(spinRow(rows[is[k]]), signs, spinRow(rows[js[k]]));
   transpose4(r[0], r[1], r[2], r[3]);
   storeColumns(r, s.rx + q, s.ry + q, s.rz + q, s.inverseInertiaSum + q);
 }
@@ -54,8 +54,8 @@ TSUBU_INLINE void gatherSome(const PassContext& context, const std::int32_t* is,
   for (int k = 0; k < 4; ++k) {
     const double* const a = &rows[is[k]].x;
     const double* const b = &rows[js[k]].x;
-    x[k] = load4(a) + signs * load4(b);
-    v[k] = load4(a + 4) + signs * load4(b + 4);
+    x[k] = plusSigned(load4(a), signs, load4(b));
+    v[k] = plusSigned(load4(a + 4), signs, load4(b + 4));
     if constexpr (Law::turns || Law::readsRadius) w[k] = load4(a + 8) + load4(b + 8);
   }
   transpose4(x[0], x[1], x[2], x[3]);
@@ -80,8 +80,8 @@ TSUBU_INLINE void gatherSome(const PassContext& context, const std::int32_t* is,
     D4 x[4];
     for (int k = 0; k < 4; ++k) {
       const SingleRow &a = rows[is[h + k]], &b = rows[js[h + k]];
-      x[k] = load4(&a.x) + signs * load4(&b.x);
-      v[h + k] = load8(&a.vx) + signsOfBoth * load8(&b.vx);
+      x[k] = plusSigned(load4(&a.x), signs, load4(&b.x));
+      v[h + k] = plusSigned(load8(&a.vx), signsOfBoth, load8(&b.vx));
     }
     transpose4(x[0], x[1], x[2], x[3]);
     store4(s.gap + q + h, as<float>(x[3] * x[3] - (x[0] * x[0] + x[1] * x[1] + x[2] * x[2])));
@@ -230,7 +230,7 @@ TSUBU_INLINE void scatterSome(const PassContext& context, const std::int32_t* is
       store8(b, load8(b) + (opposite * f[k] + fill8(context.single[js[k]].inverseRadius) * m[k]));
     } else {
       store8(a, load8(a) + f[k]);
-      store8(b, load8(b) + opposite * f[k]);
+      store8(b, plusSigned(load8(b), opposite, f[k]));
     }
   }
 }
@@ -254,7 +254,7 @@ TSUBU_INLINE void gatherFourOfWalls(const PassContext& context, const std::int32
     const GrainRow& row = context.rows[grains[k]];
     const WallContactRow& contact = contacts[k];
     d[k] = load4(&contact.dx);
-    v[k] = load4(&row.vx) + signs * load4(&contact.vx);
+    v[k] = plusSigned(load4(&row.vx), signs, load4(&contact.vx));
     radii[k] = row.radius;
     if constexpr (Law::turns || Law::readsRadius) w[k] = load4(&row.sx);
     if constexpr (Law::turns) spin[k] = load4(&contact.wx);

@@ -257,7 +257,7 @@ std::int64_t nearPairs(const Row* rows, const float* skins, double share, const 
     double skin[4];
     for (int k = 0; k < 4; ++k) {
       const std::int64_t from = q + (k < few ? k : few - 1);
-      x[k] = load4(&rows[is[from]].x) + signs * load4(&rows[js[from]].x);
+      x[k] = plusSigned(load4(&rows[is[from]].x), signs, load4(&rows[js[from]].x));
       skin[k] = static_cast<double>(skins[is[from]]) + static_cast<double>(skins[js[from]]);
     }
     transpose4(x[0], x[1], x[2], x[3]);

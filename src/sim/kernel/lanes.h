@@ -3,6 +3,9 @@
 // for every instruction set, and only loads, sums, shuffles and conversions, so the same bits.
 
 #include <cstring>
+#ifdef __FMA__
+#include <immintrin.h>
+#endif
 #include <type_traits>
 #include <utility>
 
@@ -146,6 +149,17 @@ TSUBU_INLINE F8 toSingle(const D8& value) { return joined(as<float>(value.low), 
 
 /// Of each four.
 TSUBU_INLINE D8 withFourth(const D8& a, const D8& b) { return joined(withFourth(lowHalf(a), lowHalf(b)), withFourth(highHalf(a), highHalf(b))); }
+
+/// a + s b, where s is a row of signs. A product by ±1 is exact: fused or not, the sum is the same.
+template <class Vector>
+TSUBU_INLINE Vector plusSigned(const Vector& a, const Vector& signs, const Vector& b) {
+#ifdef __FMA__
+  if constexpr (std::is_same_v<Vector, D4>) return static_cast<D4>(_mm256_fmadd_pd(signs, b, a));
+  if constexpr (std::is_same_v<Vector, F8>) return static_cast<F8>(_mm256_fmadd_ps(signs, b, a));
+  if constexpr (std::is_same_v<Vector, F4>) return static_cast<F4>(_mm_fmadd_ps(signs, b, a));
+#endif
+  return a + signs * b;
+}
 
 TSUBU_INLINE void add4(double* to, const D4& value) { store4(to, load4(to) + value); }
 TSUBU_INLINE void subtract4(double* to, const D4& value) { store4(to, load4(to) - value); }
