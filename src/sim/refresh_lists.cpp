@@ -110,7 +110,7 @@ void Simulation::Impl::rebuildLists() {
     wrapGrains();
   }
   giveSkins();
-  pairs.rememberContacts();
+  pairs.rememberContacts(slabs, team);
   std::vector<std::int32_t> order;
   double reach = 0;
   for (std::size_t g = 0; g < state.size(); ++g) reach = std::max(reach, 2 * (state.rows[g].radius + state.skin[g]));

@@ -85,17 +85,21 @@ void State::clearForces() {
   if (mixed) singleForces.assign(rows.size(), SingleForceRow{});
 }
 
-void State::toSingle(std::size_t g) {
+namespace {
+SingleRow singleOf(const GrainRow& row) {
   const auto narrow = [](double value) { return static_cast<float>(value); };
-  const GrainRow& row = rows[g];
-  single[g] = {row.x,          row.y,          row.z,          row.radius,     narrow(row.vx),   narrow(row.vy),
-               narrow(row.vz), narrow(row.inverseMass), narrow(row.sx), narrow(row.sy), narrow(row.sz), narrow(row.inverseRadius)};
+  return {row.x,          row.y,          row.z,          row.radius,     narrow(row.vx),   narrow(row.vy),
+          narrow(row.vz), narrow(row.inverseMass), narrow(row.sx), narrow(row.sy), narrow(row.sz), narrow(row.inverseRadius)};
 }
+}  // namespace
+
+void State::toSingle(std::size_t g) { single[g] = singleOf(rows[g]); }
 
 void State::allToSingle() {
   if (!mixed) return;
-  single.resize(rows.size());
-  for (std::size_t g = 0; g < rows.size(); ++g) toSingle(g);
+  single.clear();
+  single.reserve(rows.size());
+  for (const GrainRow& row : rows) single.push_back(singleOf(row));
 }
 
 void State::foldSingleForces(std::int32_t first, std::int32_t last) {

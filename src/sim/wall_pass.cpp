@@ -66,50 +66,60 @@ bool WallPass::touches(const Vec3& centre, double radius) const {
   return false;
 }
 
-/// A contact in force before the lists were made anew.
-struct WallPass::Old {
-  std::int32_t grain;  // in the new order
-  std::uint16_t wall;
-  Vec3 centre;
-  WallCandidate candidate;
-  double memory[mostMemory];
+/// What was known before the lists were made anew: groups with contacts in force, by grain in the new order.
+struct WallPass::Before {
+  struct Place {
+    std::int32_t grain;
+    std::uint32_t slab, group;
+  };
+  std::vector<SlabWalls> slabs;
+  std::vector<Place> places;
+  std::vector<std::int32_t> first;  ///< of each grain, and the end
 
-  bool operator<(const Old& other) const { return wall != other.wall ? wall < other.wall : grain < other.grain; }
+  Before(std::vector<SlabWalls> given, std::size_t grains, const std::vector<std::int32_t>& newPlace) : slabs(std::move(given)), first(grains + 1, 0) {
+    std::vector<Place> found;
+    for (std::size_t s = 0; s < slabs.size(); ++s) {
+      const SlabWalls& slab = slabs[s];
+      for (std::size_t n = 0; n < slab.groups.size(); ++n) {
+        const WallGroup& group = slab.groups[n];
+        const std::int32_t grain = newPlace[static_cast<std::size_t>(group.grain)];
+        const auto begin = slab.candidates.begin() + group.first, end = slab.candidates.begin() + group.last;
+        if (grain < 0 || std::none_of(begin, end, [](const WallCandidate& candidate) { return candidate.touching; })) continue;
+        found.push_back({grain, static_cast<std::uint32_t>(s), static_cast<std::uint32_t>(n)});
+        ++first[static_cast<std::size_t>(grain) + 1];
+      }
+    }
+    for (std::size_t g = 1; g < first.size(); ++g) first[g] += first[g - 1];
+    std::vector<std::int32_t> next = first;
+    places.resize(found.size());
+    for (const Place& place : found) places[static_cast<std::size_t>(next[static_cast<std::size_t>(place.grain)]++)] = place;
+  }
 };
 
 void WallPass::build(const State& state, const Slabs& slabs, double wallSkin, double dt, const std::vector<std::int32_t>& newPlace, ThreadTeam& team) {
   settle();
-  std::vector<Old> old;
   double work = 0;
-  for (const SlabWalls& slab : slabs_) {
-    work += slab.work;
-    for (std::size_t n = 0; n < slab.groups.size(); ++n) {
-      const WallGroup& group = slab.groups[n];
-      const std::int32_t grain = newPlace[static_cast<std::size_t>(group.grain)];
-      if (grain < 0) continue;
-      for (std::int32_t c = group.first; c < group.last; ++c) {
-        const WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(c)];
-        if (!candidate.touching) continue;
-        old.push_back({grain, group.wall, slab.ways[n].centre, candidate, {}});
-        std::copy_n(slab.memoryOf(c), slab.stateSize, old.back().memory);
-      }
-    }
-  }
-  std::stable_sort(old.begin(), old.end());
-
+  for (const SlabWalls& slab : slabs_) work += slab.work;
+  const Before before(std::move(slabs_), state.size(), newPlace);
   slabs_.assign(static_cast<std::size_t>(slabs.count()), SlabWalls{});
   near_.resize(slabs_.size());
   if (!slabs_.empty()) slabs_[0].work = work;
   team.run(slabs.count(), [&](int s, int) {
-    buildSlab(state, slabs.begin(s), slabs.end(s), wallSkin, dt, old, slabs_[static_cast<std::size_t>(s)]);
+    buildSlab(state, slabs.begin(s), slabs.end(s), wallSkin, dt, before, slabs_[static_cast<std::size_t>(s)]);
   });
 }
 
 /// A few grains that lie beside each other, since grains lie in the order of cells.
 struct WallPass::Few {
   std::int32_t begin, end;
-  Box box;                           // of their centres, world
+  Box box;                         // of their centres, world
   double reach = 0, fastest2 = 0;  // the largest of theirs: m from the centre, m²/s²
+
+  void take(const Few& more) {
+    box.extend(more.box);
+    reach = std::max(reach, more.reach);
+    fastest2 = std::max(fastest2, more.fastest2);
+  }
 };
 
 std::vector<WallPass::Few> WallPass::fewByFew(const State& state, std::int32_t begin, std::int32_t end, double wallSkin) {
@@ -138,14 +148,17 @@ bool WallPass::mayMeet(std::size_t wall, const Few& few, double dt) const {
   return (*walls_)[wall].surface->mayMeet(Box(local - around, local + around));
 }
 
-void WallPass::buildSlab(const State& state, std::int32_t begin, std::int32_t end, double wallSkin, double dt, const std::vector<Old>& old,
+void WallPass::buildSlab(const State& state, std::int32_t begin, std::int32_t end, double wallSkin, double dt, const Before& before,
                          SlabWalls& slab) const {
   slab.stateSize = static_cast<std::size_t>(law_.stateSize);
   std::vector<std::uint32_t> features;
   const std::vector<Few> all = fewByFew(state, begin, end, wallSkin);
+  Few whole{begin, end, {}};
+  for (const Few& few : all) whole.take(few);
   for (std::size_t w = 0; w < walls_->size(); ++w) {
     const WallPlace& place = places_[w];
     slab.firstGroup.push_back(static_cast<std::int32_t>(slab.groups.size()));
+    if (!mayMeet(w, whole, dt)) continue;
     for (const Few& few : all) {
       if (!mayMeet(w, few, dt)) continue;
       for (std::int32_t g = few.begin; g < few.end; ++g) {
@@ -153,7 +166,7 @@ void WallPass::buildSlab(const State& state, std::int32_t begin, std::int32_t en
         const Vec3 centre = centreOf(row), local = place.toLocal(centre), travel = dt * (Vec3(row.vx, row.vy, row.vz) - place.twist.at(centre));
         const double reach = row.radius + state.skin[static_cast<std::size_t>(g)] + wallSkin + travel.norm();
         (*walls_)[w].surface->candidates(local, reach, features);
-        if (!features.empty()) addGroup(state, g, w, local - place.rotation.transpose() * travel, features, old, slab);
+        if (!features.empty()) addGroup(state, g, w, local - place.rotation.transpose() * travel, features, before, slab);
       }
     }
   }
@@ -164,7 +177,7 @@ void WallPass::buildSlab(const State& state, std::int32_t begin, std::int32_t en
 
 // `start`: where the grain was a step ago, if it was nowhere near the wall.
 void WallPass::addGroup(const State& state, std::int32_t grain, std::size_t wall, const Vec3& start, const std::vector<std::uint32_t>& features,
-                        const std::vector<Old>& old, SlabWalls& slab) const {
+                        const Before& before, SlabWalls& slab) const {
   WallGroup group;
   group.grain = grain;
   group.wall = static_cast<std::uint16_t>(wall);
@@ -176,18 +189,22 @@ void WallPass::addGroup(const State& state, std::int32_t grain, std::size_t wall
   }
   slab.memory.resize(slab.candidates.size() * slab.stateSize);
   group.last = static_cast<std::int32_t>(slab.candidates.size());
-  Old key{};
-  key.grain = grain;
-  key.wall = group.wall;
-  for (auto [o, end] = std::equal_range(old.begin(), old.end(), key); o != end; ++o) {
-    way.centre = o->centre;
+  for (auto k = before.first[static_cast<std::size_t>(grain)]; k < before.first[static_cast<std::size_t>(grain) + 1]; ++k) {
+    const Before::Place& place = before.places[static_cast<std::size_t>(k)];
+    const SlabWalls& old = before.slabs[place.slab];
+    const WallGroup& oldGroup = old.groups[place.group];
+    if (oldGroup.wall != group.wall) continue;
+    way.centre = old.ways[place.group].centre;
     if (!state.wrap.empty()) way.centre += places_[wall].rotation.transpose() * state.wrap[static_cast<std::size_t>(grain)];
-    const auto at = std::lower_bound(features.begin(), features.end(), o->candidate.feature);
-    if (at == features.end() || *at != o->candidate.feature) continue;
-    const std::int32_t candidate = group.first + static_cast<std::int32_t>(at - features.begin());
-    slab.candidates[static_cast<std::size_t>(candidate)] = o->candidate;
-    std::copy_n(o->memory, slab.stateSize, slab.memoryOf(candidate));
-    group.awake = 1;
+    for (std::int32_t c = oldGroup.first; c < oldGroup.last; ++c) {
+      const WallCandidate& candidate = old.candidates[static_cast<std::size_t>(c)];
+      const auto at = std::lower_bound(features.begin(), features.end(), candidate.feature);
+      if (!candidate.touching || at == features.end() || *at != candidate.feature) continue;
+      const std::int32_t same = group.first + static_cast<std::int32_t>(at - features.begin());
+      slab.candidates[static_cast<std::size_t>(same)] = candidate;
+      std::copy_n(old.memoryOf(c), slab.stateSize, slab.memoryOf(same));
+      group.awake = 1;
+    }
   }
   slab.groups.push_back(group);
   slab.ways.push_back(way);

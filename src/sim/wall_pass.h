@@ -109,13 +109,13 @@ class WallPass {
 
  private:
   struct Batch;
-  struct Old;
+  struct Before;
   struct Few;
   static std::vector<Few> fewByFew(const State& state, std::int32_t begin, std::int32_t end, double wallSkin);
   bool mayMeet(std::size_t wall, const Few& few, double dt) const;
-  void buildSlab(const State& state, std::int32_t begin, std::int32_t end, double wallSkin, double dt, const std::vector<Old>& old, SlabWalls& slab) const;
+  void buildSlab(const State& state, std::int32_t begin, std::int32_t end, double wallSkin, double dt, const Before& before, SlabWalls& slab) const;
   void addGroup(const State& state, std::int32_t grain, std::size_t wall, const Vec3& start, const std::vector<std::uint32_t>& features,
-                const std::vector<Old>& old, SlabWalls& slab) const;
+                const Before& before, SlabWalls& slab) const;
   void findNearPlane(const SlabWalls& slab, std::size_t wall, const PassContext& context, std::vector<std::int32_t>& found) const;
   void findNearMesh(const SlabWalls& slab, std::size_t wall, const PassContext& context, std::vector<std::int32_t>& found) const;
   void evaluatePlane(SlabWalls& slab, std::size_t wall, const std::vector<std::int32_t>& near, const PassContext& context, Batch& batch);

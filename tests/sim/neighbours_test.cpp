@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "sim/kernel/kernels.h"
 #include "sim/neighbours/cell_grid.h"
 #include "sim/neighbours/drift.h"
 #include "sim/neighbours/pair_lists.h"
@@ -42,9 +43,12 @@ double gap(const GrainRow& a, const GrainRow& b) {
   return Vec3(a.x - b.x, a.y - b.y, a.z - b.z).norm() - a.radius - b.radius;
 }
 
+// With the loops of every instruction set, in turn.
 TEST(CellGrid, FindsAllThatBruteForceFinds) {
+  const std::string usual(kernels().isa);
   Random random(21, 1);
   for (int round = 0; round < 2000; ++round) {
+    useKernels(availableKernels()[static_cast<std::size_t>(round) / 20 % availableKernels().size()].isa);
     const auto shape = static_cast<Shape>(round % static_cast<int>(Shape::count));
     const double ratio = std::array{1.0, 1.4, 10.0, 100.0}[static_cast<std::size_t>(round / 5 % 4)];
     const Vec3 offset = round % 7 == 0 ? Vec3(1e6, -1e6, 5e5) : Vec3(Vec3::Zero());
@@ -58,6 +62,10 @@ TEST(CellGrid, FindsAllThatBruteForceFinds) {
       grid.near(Vec3(rows[g].x, rows[g].y, rows[g].z), rows[g].radius, static_cast<std::int32_t>(g), found);
       std::sort(found.begin(), found.end());
       ASSERT_EQ(std::adjacent_find(found.begin(), found.end()), found.end()) << "found twice, round " << round;
+      std::vector<std::int32_t> partners;
+      partners.resize(grid.partners(Vec3(rows[g].x, rows[g].y, rows[g].z), rows[g].radius, static_cast<std::int32_t>(g), partners));
+      std::sort(partners.begin(), partners.end());
+      ASSERT_EQ(partners, std::vector<std::int32_t>(std::upper_bound(found.begin(), found.end(), static_cast<std::int32_t>(g)), found.end()));
       for (std::size_t o = 0; o < rows.size(); ++o) {
         if (o == g) continue;
         const double excess = gap(rows[g], rows[o]) - reach;
@@ -66,6 +74,110 @@ TEST(CellGrid, FindsAllThatBruteForceFinds) {
       }
     }
   }
+  useKernels(usual);
+}
+
+// Grains of one size that lie in the order of slabs have their partners in this order too: what makes searching for them and sorting cheap.
+TEST(CellGrid, PartnersOfEqualGrainsComeInOrder) {
+  Random random(21, 3);
+  for (const double skin : {0.0, 2e-4}) {
+    State state;
+    for (int n = 0; n < 3000; ++n)
+      state.rows.push_back({random.uniform(0, 0.03), random.uniform(0, 0.011), random.uniform(0, 0.05), 1e-3, 0, 0, 0, 1, 0, 0, 0, 1e3});
+    state.skin.assign(state.rows.size(), static_cast<float>(skin));
+    std::vector<std::int32_t> order, found;
+    sortIntoSlabs(state.rows, 2 * (1e-3 + static_cast<double>(state.skin[0])), order);
+    state.reorder(order);
+    CellGrid grid;
+    grid.build(state.rows, 0, state.skin);
+    std::size_t pairs = 0;
+    for (std::size_t g = 0; g < state.rows.size(); ++g) {
+      const GrainRow& row = state.rows[g];
+      const std::size_t count = grid.partners(Vec3(row.x, row.y, row.z), row.radius + state.skin[g], static_cast<std::int32_t>(g), found);
+      EXPECT_TRUE(std::is_sorted(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count)));
+      pairs += count;
+    }
+    EXPECT_GT(pairs, 3000);
+  }
+}
+
+// Grains get a new order, some go and some come: the memory of the others follows, and what is a force changes its sign with the order of a pair.
+TEST(PairLists, MemoryFollowsGrainsInTheirNewOrder) {
+  Random random(21, 4);
+  ThreadTeam team(2);
+  std::size_t kept = 0, turned = 0;
+  for (int round = 0; round < 200; ++round) {
+    const bool single = round % 2 == 1;
+    constexpr unsigned odd = 0b101;
+    const auto remembered = [](std::uint32_t a, std::uint32_t b, int component) {
+      const double size = a < b ? 1 + a + 0.5 * b : 1 + b + 0.5 * a;
+      return (odd >> component & 1U) != 0 && a > b ? -size * (component + 1) : size * (component + 1);
+    };
+    State state;
+    state.rows = randomRows(random, static_cast<Shape>(round / 2 % 2), 80, round % 3 == 0 ? 3.0 : 1.0, Vec3::Zero());
+    const auto sorted = [&](std::vector<std::int32_t>& order) {
+      for (std::size_t g = state.skin.size(); g < state.rows.size(); ++g) {
+        state.skin.push_back(2e-4F);
+        state.id.push_back(state.nextId++);
+      }
+      Slabs slabs = sortIntoSlabs(state.rows, 2 * (1e-3 + 2.1e-4), order);
+      state.reorder(order);
+      return slabs;
+    };
+    const auto rebuild = [&](PairLists& pairs, const Slabs& slabs, const std::vector<std::int32_t>& newPlace) {
+      CellGrid grid;
+      grid.build(state.rows, 0, state.skin);
+      if (single) state.mixed = true, state.allToSingle();
+      pairs.build(state, slabs, grid, 0.5, newPlace, team);
+    };
+    std::vector<std::int32_t> order;
+    const Slabs before = sorted(order);
+    PairLists pairs(3, odd, single);
+    rebuild(pairs, before, order);
+    std::set<std::pair<std::uint32_t, std::uint32_t>> known;
+    for (SlabPairs& slab : pairs.slabs()) {
+      for (std::size_t k = 0; k < slab.i.size(); ++k) {
+        const std::uint32_t a = state.id[static_cast<std::size_t>(slab.i[k])], b = state.id[static_cast<std::size_t>(slab.j[k])];
+        for (int c = 0; c < 3; ++c) slab.memory.set(static_cast<std::size_t>(c), k, remembered(a, b, c));
+        known.insert({std::min(a, b), std::max(a, b)});
+      }
+    }
+    pairs.rememberContacts(before, team);
+
+    // Each fifth grain goes, the others are turned about a little, and one comes.
+    std::vector<std::int32_t> stay, place(state.rows.size(), -1);
+    for (std::size_t g = 0; g < place.size(); ++g) {
+      GrainRow& row = state.rows[g];
+      std::swap(row.x, row.z);
+      row.y = -row.y;
+      if (g % 5 == 4) continue;
+      place[g] = static_cast<std::int32_t>(stay.size());
+      stay.push_back(static_cast<std::int32_t>(g));
+    }
+    state.reorder(stay);
+    state.rows.push_back(state.rows.front());
+    state.rows.back().x += 1e-4;
+    const std::uint32_t newcomer = state.nextId;
+    const Slabs after = sorted(order);
+    std::vector<std::int32_t> moved(order.size());
+    for (std::size_t g = 0; g < order.size(); ++g) moved[static_cast<std::size_t>(order[g])] = static_cast<std::int32_t>(g);
+    for (std::int32_t& to : place)
+      if (to >= 0) to = moved[static_cast<std::size_t>(to)];
+    rebuild(pairs, after, place);
+    for (const SlabPairs& slab : pairs.slabs()) {
+      for (std::size_t k = 0; k < slab.i.size(); ++k) {
+        const std::uint32_t a = state.id[static_cast<std::size_t>(slab.i[k])], b = state.id[static_cast<std::size_t>(slab.j[k])];
+        const bool knew = known.contains({std::min(a, b), std::max(a, b)});
+        if (a == newcomer || b == newcomer) {
+          ASSERT_FALSE(knew);
+        }
+        kept += knew, turned += knew && a > b;
+        for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(slab.memory.at(c, k), knew ? remembered(a, b, static_cast<int>(c)) : 0) << "round " << round;
+      }
+    }
+  }
+  EXPECT_GT(kept, 5000U);
+  EXPECT_GT(turned, 1000U);
 }
 
 TEST(PairLists, HoldEveryNearPairOnceInOrder) {

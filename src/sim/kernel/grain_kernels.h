@@ -58,10 +58,27 @@ template <class Row>
 using NearKernel = std::int64_t (*)(const Row* rows, const float* skins, double share, const std::int32_t* i, const std::int32_t* j,
                                     std::int64_t count, std::int32_t* kept);
 
+/// Balls in columns, in which each has a place. The columns may be read for seven more balls beyond the last.
+struct BallColumns {
+  const double *x, *y, *z, *radius;  ///< m
+  const std::int32_t* number;
+};
+
+/// Balls that follow each other in the columns.
+struct BallRun {
+  std::int32_t first, last;
+};
+
+/// Writes the numbers of those balls of the runs that are nearer to a ball at (x, y, z) than the sum of the radii and have a number above
+/// `after`: in their order, to `found`, which has room for all of them and seven more. Returns how many.
+using NearBallsKernel = std::int64_t (*)(const BallColumns& balls, const BallRun* runs, int count, const double (&ball)[4], std::int32_t after,
+                                         std::int32_t* found);
+
 /// The loops for one instruction set.
 struct GrainKernels {
   MoveKernel (*move)(Integrator scheme, MoveKind kind);  ///< all but Runge–Kutta
   TurnKernel turn;
+  NearBallsKernel nearBalls;
   NearKernel<GrainRow> nearPairs;
   NearKernel<SingleRow> nearSinglePairs;  ///< mixed precision: places and radii are the same
 };

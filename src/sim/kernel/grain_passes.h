@@ -246,6 +246,22 @@ void turnGrains(double* orientations, const AngleRow* angles, std::int64_t count
   }
 }
 
+std::int64_t nearBalls(const BallColumns& balls, const BallRun* runs, int count, const double (&ball)[4], std::int32_t after, std::int32_t* found) {
+  const auto all = [](double value) __attribute__((always_inline)) { return joined(fill4(value), fill4(value)); };
+  const D8 x = all(ball[0]), y = all(ball[1]), z = all(ball[2]), radius = all(ball[3]);
+  std::int64_t kept = 0;
+  for (int n = 0; n < count; ++n) {
+    for (std::int32_t from = runs[n].first; from < runs[n].last; from += 8) {
+      const D8 dx = x - load8(balls.x + from), dy = y - load8(balls.y + from), dz = z - load8(balls.z + from);
+      const D8 reach = radius + load8(balls.radius + from);
+      const std::int32_t left = runs[n].last - from;
+      const unsigned there = left < 8 ? (1U << left) - 1 : 255;
+      kept += keepAbove(after, balls.number + from, whereLess(dx * dx + dy * dy + dz * dz, reach * reach) & there, found + kept);
+    }
+  }
+  return kept;
+}
+
 template <class Row>
 std::int64_t nearPairs(const Row* rows, const float* skins, double share, const std::int32_t* is, const std::int32_t* js,
                        std::int64_t count, std::int32_t* kept) {

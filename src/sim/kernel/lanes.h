@@ -2,8 +2,9 @@
 // Four doubles or eight single numbers at once: how rows of grains become columns of the stage and back. Compiler vectors: the same source
 // for every instruction set, and only loads, sums, shuffles and conversions, so the same bits.
 
+#include <cstdint>
 #include <cstring>
-#ifdef __FMA__
+#ifdef __AVX__
 #include <immintrin.h>
 #endif
 #include <type_traits>
@@ -159,6 +160,40 @@ TSUBU_INLINE Vector plusSigned(const Vector& a, const Vector& signs, const Vecto
   if constexpr (std::is_same_v<Vector, F4>) return static_cast<F4>(_mm_fmadd_ps(signs, b, a));
 #endif
   return a + signs * b;
+}
+
+/// For which of eight lanes a < b, as bits.
+TSUBU_INLINE unsigned whereLess(const D8& a, const D8& b) {
+#ifdef __AVX512F__
+  return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
+#elif defined(__AVX__)
+  const auto bits = [](const D4& low, const D4& high) __attribute__((always_inline)) {
+    return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(low, high, _CMP_LT_OQ)));
+  };
+  return bits(a.low, b.low) | bits(a.high, b.high) << 4;
+#else
+  unsigned bits = 0;
+  for (int k = 0; k < 8; ++k) bits |= static_cast<unsigned>((k < 4 ? a.low : a.high)[k % 4] < (k < 4 ? b.low : b.high)[k % 4]) << k;
+  return bits;
+#endif
+}
+
+/// Writes those of eight numbers that are chosen by bits and above `after`, in their order; `to` has room for eight. Returns how many.
+TSUBU_INLINE int keepAbove(std::int32_t after, const std::int32_t* numbers, unsigned chosen, std::int32_t* to) {
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+  const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers));
+  const __mmask8 kept = _mm256_mask_cmpgt_epi32_mask(static_cast<__mmask8>(chosen), all, _mm256_set1_epi32(after));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_maskz_compress_epi32(kept, all));
+  return __builtin_popcount(kept);
+#else
+  // Without a branch: which they are cannot be foreseen.
+  int count = 0;
+  for (int k = 0; k < 8; ++k) {
+    to[count] = numbers[k];
+    count += static_cast<int>(chosen >> k & 1U) & static_cast<int>(numbers[k] > after);
+  }
+  return count;
+#endif
 }
 
 TSUBU_INLINE void add4(double* to, const D4& value) { store4(to, load4(to) + value); }

@@ -1,7 +1,6 @@
 #include "sim/neighbours/pair_lists.h"
 
 #include <algorithm>
-#include <initializer_list>
 #include <utility>
 
 #include "sim/kernel/grain_kernels.h"
@@ -9,109 +8,95 @@
 
 namespace tsubu::sim {
 
-namespace {
-
-// Sorts (i, j) pairs that come flat, i0 j0 i1 j1 …, with i in [first, last): counting by i, then the few j of each i.
-void sortPairs(std::initializer_list<const std::vector<std::int32_t>*> flats, std::int32_t first, std::int32_t last,
-               std::vector<std::int32_t>& outI, std::vector<std::int32_t>& outJ) {
-  std::size_t pairs = 0;
-  for (const auto* flat : flats) pairs += flat->size() / 2;
-  std::vector<std::int32_t> start(static_cast<std::size_t>(last - first) + 1, 0);
-  for (const auto* flat : flats)
-    for (std::size_t k = 0; k < flat->size(); k += 2) ++start[static_cast<std::size_t>((*flat)[k] - first) + 1];
-  for (std::size_t g = 1; g < start.size(); ++g) start[g] += start[g - 1];
-  outI.resize(pairs);
-  outJ.resize(pairs);
-  std::vector<std::int32_t> next(start.begin(), start.end() - 1);
-  for (const auto* flat : flats) {
-    for (std::size_t k = 0; k < flat->size(); k += 2) {
-      const auto place = static_cast<std::size_t>(next[static_cast<std::size_t>((*flat)[k] - first)]++);
-      outI[place] = (*flat)[k];
-      outJ[place] = (*flat)[k + 1];
-    }
-  }
-  for (std::size_t g = 0; g + 1 < start.size(); ++g) std::sort(outJ.begin() + start[g], outJ.begin() + start[g + 1]);
-}
-
-}  // namespace
-
-void PairLists::rememberContacts() {
-  const auto components = static_cast<std::size_t>(stateSize_);
-  const auto carries = [&](const SlabPairs& pairs, std::size_t k) {
-    for (std::size_t c = 0; c < components; ++c)
-      if (pairs.memory.at(c, k) != 0) return true;
-    return false;
-  };
-  std::size_t count = 0;
-  for (const SlabPairs& pairs : slabs_)
-    for (std::size_t k = 0; k < pairs.i.size(); ++k) count += carries(pairs, k);
+void PairLists::rememberContacts(const Slabs& slabs, ThreadTeam& team) {
   Remembered& r = remembered_;
-  r.i.reserve(count);
-  r.j.reserve(count);
-  r.memory.reserve(count * components);
-  for (SlabPairs& pairs : slabs_) {
-    for (std::size_t k = 0; k < pairs.i.size(); ++k) {
-      if (!carries(pairs, k)) continue;
-      r.i.push_back(pairs.i[k]);
-      r.j.push_back(pairs.grainOf(pairs.j[k]));
-      for (std::size_t c = 0; c < components; ++c) r.memory.push_back(pairs.memory.at(c, k));
+  r.clear();
+  if (stateSize_ == 0 || slabs_.empty()) {
+    slabs_.clear();
+    return;
+  }
+  r.slabs.resize(slabs_.size());
+  r.begin = slabs.first;
+  r.slab.resize(static_cast<std::size_t>(slabs.first.back()));
+  team.run(slabs.count(), [&](int s, int) {
+    SlabPairs& pairs = slabs_[static_cast<std::size_t>(s)];
+    Remembered::Contacts& contacts = r.slabs[static_cast<std::size_t>(s)];
+    std::fill(r.slab.begin() + slabs.begin(s), r.slab.begin() + slabs.end(s), static_cast<std::uint16_t>(s));
+    contacts.first.reserve(static_cast<std::size_t>(slabs.end(s) - slabs.begin(s)) + 1);
+    std::size_t k = 0;
+    for (std::int32_t g = slabs.begin(s); g < slabs.end(s); ++g) {
+      contacts.first.push_back(static_cast<std::int32_t>(k));
+      while (k < pairs.i.size() && pairs.i[k] == g) ++k;
     }
+    contacts.first.push_back(static_cast<std::int32_t>(k));
+    if (!pairs.images.empty())
+      for (std::int32_t& j : pairs.j) j = pairs.grainOf(j);
+    contacts.partner = std::move(pairs.j);
+    contacts.memory = std::move(pairs.memory);
     pairs = SlabPairs{};
+  });
+}
+
+void PairLists::findOldPlaces(std::size_t grains, const std::vector<std::int32_t>& newPlace) {
+  remembered_.oldPlace.assign(grains, -1);
+  for (std::size_t old = 0; old < remembered_.slab.size(); ++old)
+    if (newPlace[old] >= 0) remembered_.oldPlace[static_cast<std::size_t>(newPlace[old])] = static_cast<std::int32_t>(old);
+}
+
+// Copies what is remembered of a pair (old places) as it was seen from that grain.
+template <class Real>
+bool PairLists::recall(std::int32_t seenFrom, std::int32_t partner, Real* memory) const {
+  const auto slab = static_cast<std::size_t>(remembered_.slab[static_cast<std::size_t>(seenFrom)]);
+  const Remembered::Contacts& contacts = remembered_.slabs[slab];
+  const auto grain = static_cast<std::size_t>(seenFrom - remembered_.begin[slab]);
+  for (auto k = static_cast<std::size_t>(contacts.first[grain]); k < static_cast<std::size_t>(contacts.first[grain + 1]); ++k) {
+    if (contacts.partner[k] != partner) continue;
+    const Real* const columns = contacts.memory.columns<Real>();
+    for (int c = 0; c < stateSize_; ++c) memory[c] = columns[static_cast<std::size_t>(c) * contacts.memory.stride() + k];
+    return true;
   }
+  return false;
 }
 
-// Forces in the memory belong to i as seen from j: they change their sign when the pair turns round.
-void PairLists::turnRound(double* memory) const {
-  for (int c = 0; c < stateSize_; ++c)
-    if (odd_ >> c & 1U) memory[c] = -memory[c];
-}
-
-// Brings what is remembered into the new order: (lower, higher), and those of grains that are gone left out.
-void PairLists::placeRemembered(std::size_t grains, const std::vector<std::int32_t>& newPlace) {
-  Remembered& r = remembered_;
-  r.first.assign(grains + 1, 0);
-  for (std::size_t k = 0; k < r.i.size(); ++k) {
-    r.i[k] = newPlace[static_cast<std::size_t>(r.i[k])];
-    r.j[k] = newPlace[static_cast<std::size_t>(r.j[k])];
-    if (r.i[k] < 0 || r.j[k] < 0) continue;
-    if (r.i[k] > r.j[k]) {
-      std::swap(r.i[k], r.j[k]);
-      turnRound(&r.memory[k * static_cast<std::size_t>(stateSize_)]);
+// What is remembered goes to the same pairs in the new lists. Forces in the memory belong to i as seen from j: they change their sign when the
+// pair is now seen from the other side.
+template <class Real>
+void PairLists::handMemory(SlabPairs& pairs) const {
+  const std::vector<std::int32_t>& oldPlace = remembered_.oldPlace;
+  Real* const columns = pairs.memory.columns<Real>();
+  const std::size_t stride = pairs.memory.stride();
+  Real seen[mostMemory];
+  for (std::size_t pair = 0; pair < pairs.i.size(); ++pair) {
+    const std::int32_t i = oldPlace[static_cast<std::size_t>(pairs.i[pair])], j = oldPlace[static_cast<std::size_t>(pairs.grainOf(pairs.j[pair]))];
+    if (i < 0 || j < 0) continue;
+    const bool same = recall(i, j, seen);
+    if (!same && !recall(j, i, seen)) continue;
+    for (int c = 0; c < stateSize_; ++c) {
+      const bool turns = !same && (odd_ >> c & 1U) != 0;
+      columns[static_cast<std::size_t>(c) * stride + pair] = turns && seen[c] != 0 ? -seen[c] : seen[c];
     }
-    ++r.first[static_cast<std::size_t>(r.i[k]) + 1];
   }
-  for (std::size_t g = 1; g < r.first.size(); ++g) r.first[g] += r.first[g - 1];
-  r.order.resize(static_cast<std::size_t>(r.first.back()));
-  // Counts each beginning up to that of the next grain, and puts them back.
-  for (std::size_t k = 0; k < r.i.size(); ++k)
-    if (r.i[k] >= 0 && r.j[k] >= 0)
-      r.order[static_cast<std::size_t>(r.first[static_cast<std::size_t>(r.i[k])]++)] = static_cast<std::int32_t>(k);
-  std::copy_backward(r.first.begin(), r.first.end() - 1, r.first.end());
-  r.first.front() = 0;
 }
 
-void PairLists::searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, FlatPairs& own,
-                           FlatPairs& before) const {
-  const std::int32_t first = slabs.begin(slab);
-  std::vector<std::int32_t> partners;
-  // About what there will be: a list that grows is there twice for a moment.
-  own.reserve(8 * static_cast<std::size_t>(slabs.end(slab) - first));
-  before.reserve(3 * static_cast<std::size_t>(slabs.end(slab) - first));
-  for (std::int32_t g = first; g < slabs.end(slab); ++g) {
+void PairLists::searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, SlabPairs& pairs, Room& room) {
+  room.outerI.clear();
+  room.outerJ.clear();
+  for (std::int32_t g = slabs.begin(slab); g < slabs.end(slab); ++g) {
     const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
-    const std::size_t count = grid.partners(Vec3(row.x, row.y, row.z), row.radius + state.skin[static_cast<std::size_t>(g)], g, partners);
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::int32_t i = std::min(g, partners[k]), j = std::max(g, partners[k]);
-      FlatPairs& list = i >= first ? own : before;
-      list.push_back(i);
-      list.push_back(j);
-    }
+    const std::size_t count = grid.partners(Vec3(row.x, row.y, row.z), row.radius + state.skin[static_cast<std::size_t>(g)], g, room.partners);
+    const auto begin = room.partners.begin(), end = begin + static_cast<std::ptrdiff_t>(count);
+    std::sort(begin, end);
+    room.outerI.insert(room.outerI.end(), count, g);
+    room.outerJ.insert(room.outerJ.end(), begin, end);
   }
+  // As long as they are, no longer: a list that grows may be there twice.
+  pairs.outerI.assign(room.outerI.begin(), room.outerI.end());
+  pairs.outerJ.assign(room.outerJ.begin(), room.outerJ.end());
 }
 
 // Of the two ways to see a pair across the boundary one is taken: shifts with a positive number.
 void PairLists::searchAcross(const State& state, const Slabs& slabs, const CellGrid& grid, const Periods& periods, int slab,
-                             FlatPairs& across, std::vector<Image>& images) {
+                             std::vector<Across>& across, std::vector<Image>& images) {
   struct Found {
     std::int32_t grain, partner;
     int shift;
@@ -137,8 +122,24 @@ void PairLists::searchAcross(const State& state, const Slabs& slabs, const CellG
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (k == 0 || found[k].partner != found[k - 1].partner || found[k].shift != found[k - 1].shift)
       images.push_back({found[k].partner, periods.shift(found[k].shift)});
-    across.push_back(found[k].grain);
-    across.push_back(static_cast<std::int32_t>(images.size()) - 1);
+    across.push_back({found[k].grain, static_cast<std::int32_t>(images.size()) - 1});
+  }
+  std::sort(across.begin(), across.end(), [](const Across& a, const Across& b) { return a.grain != b.grain ? a.grain < b.grain : a.image < b.image; });
+}
+
+// Merges them into the outer list from its end: rows of images come after those of grains.
+void PairLists::addAcross(const std::vector<Across>& across, SlabPairs& pairs) {
+  std::size_t from = pairs.outerI.size(), to = from + across.size();
+  for (auto* column : {&pairs.outerI, &pairs.outerJ}) column->resize(to);
+  for (auto next = across.rbegin(); next != across.rend(); ++next) {
+    for (; from > 0 && pairs.outerI[from - 1] > next->grain; --from) {
+      --to;
+      pairs.outerI[to] = pairs.outerI[from - 1];
+      pairs.outerJ[to] = pairs.outerJ[from - 1];
+    }
+    --to;
+    pairs.outerI[to] = next->grain;
+    pairs.outerJ[to] = pairs.firstImage + next->image;
   }
 }
 
@@ -190,29 +191,30 @@ void PairLists::foldImages(State& state, int slab) const {
 void PairLists::build(State& state, const Slabs& slabs, const CellGrid& grid, double share, const std::vector<std::int32_t>& newPlace,
                       ThreadTeam& team, const Periods& periods) {
   const int count = slabs.count();
-  std::vector<FlatPairs> own(static_cast<std::size_t>(count)), before(static_cast<std::size_t>(count) + 1),
-      across(static_cast<std::size_t>(count));
+  std::vector<std::vector<Across>> across(static_cast<std::size_t>(count));
   SlabPairs none;
   none.memory = PairMemory(single_);
   slabs_.assign(static_cast<std::size_t>(count), none);
-  rooms_.resize(static_cast<std::size_t>(team.threads()), Room{{}, {}, PairMemory(single_)});
-  team.run(count, [&](int slab, int) {
+  rooms_.resize(static_cast<std::size_t>(team.threads()), Room{{}, {}, {}, {}, {}, PairMemory(single_)});
+  const bool remembers = !remembered_.slabs.empty();
+  if (remembers) findOldPlaces(state.size(), newPlace);
+  team.run(count, [&](int slab, int thread) {
     const auto s = static_cast<std::size_t>(slab);
-    searchSlab(state, slabs, grid, slab, own[s], before[s]);
+    searchSlab(state, slabs, grid, slab, slabs_[s], rooms_[static_cast<std::size_t>(thread)]);
     if (periods.any()) searchAcross(state, slabs, grid, periods, slab, across[s], slabs_[s].images);
   });
   if (periods.any()) placeImages(state, slabs);
-  placeRemembered(state.size(), newPlace);
   team.run(count, [&](int slab, int thread) {
     const auto s = static_cast<std::size_t>(slab);
-    SlabPairs& pairs = slabs_[s];
-    for (std::size_t k = 1; k < across[s].size(); k += 2) across[s][k] += pairs.firstImage;
-    sortPairs({&own[s], &before[s + 1], &across[s]}, slabs.begin(slab), slabs.end(slab), pairs.outerI, pairs.outerJ);
-    for (FlatPairs* sorted : {&own[s], &before[s + 1], &across[s]}) *sorted = FlatPairs();
-    filterSlab(state, pairs, share, rooms_[static_cast<std::size_t>(thread)]);
-    if (stateSize_ > 0) handMemory(pairs);
+    addAcross(across[s], slabs_[s]);
+    filterSlab(state, slabs_[s], share, rooms_[static_cast<std::size_t>(thread)]);
+    if (!remembers) return;
+    if (single_)
+      handMemory<float>(slabs_[s]);
+    else
+      handMemory<double>(slabs_[s]);
   });
-  remembered_ = Remembered();
+  remembered_.clear();
 }
 
 namespace {
@@ -261,26 +263,6 @@ bool PairLists::copyMemory(const Slabs& slabs, std::int32_t a, std::int32_t b, d
   find(std::min(a, b), std::max(a, b));
   if (!found && hasImages()) find(std::max(a, b), std::min(a, b));
   return found;
-}
-
-// What is remembered goes to the same pairs in the new lists: seen from the lower grain, also where the pair is seen from the higher one
-// (across the boundary).
-void PairLists::handMemory(SlabPairs& pairs) const {
-  const Remembered& r = remembered_;
-  const auto components = static_cast<std::size_t>(stateSize_);
-  double seen[mostMemory];
-  for (std::size_t pair = 0; pair < pairs.i.size(); ++pair) {
-    const std::int32_t i = pairs.i[pair], j = pairs.grainOf(pairs.j[pair]), low = std::min(i, j), high = std::max(i, j);
-    const auto first = static_cast<std::size_t>(r.first[static_cast<std::size_t>(low)]);
-    const auto last = static_cast<std::size_t>(r.first[static_cast<std::size_t>(low) + 1]);
-    for (std::size_t n = first; n < last; ++n) {
-      const auto k = static_cast<std::size_t>(r.order[n]);
-      if (r.j[k] != high) continue;
-      std::copy_n(&r.memory[k * components], components, seen);
-      if (i != low) turnRound(seen);
-      for (std::size_t c = 0; c < components; ++c) pairs.memory.set(c, pair, seen[c]);
-    }
-  }
 }
 
 void PairLists::refilter(State& state, double share, const std::vector<int>& lists, ThreadTeam& team) {

@@ -51,9 +51,9 @@ class PairLists {
   /// single precision.
   PairLists(int stateSize, unsigned odd, bool single = false) : stateSize_(stateSize), odd_(odd), single_(single) {}
 
-  /// Notes which contacts carry memory before the grains are put into a new order, and lets the lists go.
-  void rememberContacts();
-  /// Searches the outer lists anew (grains in slab order with their skins, grid built with these) and hands the remembered memory to the same pairs.
+  /// Keeps the memory of contacts before the grains are put into a new order, and lets the lists go. `slabs`: those of the lists.
+  void rememberContacts(const Slabs& slabs, ThreadTeam& team);
+  /// Searches the outer lists anew (grains in slab order with their skins, grid built with these) and hands the memory to the same pairs.
   /// `share`: of the skins, for the inner lists. `newPlace`: old place → new place, −1 for grains that are gone.
   /// With `periods`, grains lie in the domain; images are made and the state gets rows for them.
   void build(State& state, const Slabs& slabs, const CellGrid& grid, double share, const std::vector<std::int32_t>& newPlace,
@@ -80,24 +80,39 @@ class PairLists {
   const std::vector<SlabPairs>& slabs() const { return slabs_; }
 
  private:
-  /// What the lists knew of contacts with memory, between two orders of the grains: `stateSize_` doubles in a row for each.
+  /// The last inner lists, while grains have a new order: of each slab, the second grains (owners, not images) and the memory.
   struct Remembered {
-    std::vector<std::int32_t> i, j;
-    std::vector<double> memory;
-    std::vector<std::int32_t> order, first;  ///< by i; where those of each grain begin in `order`
+    struct Contacts {
+      std::vector<std::int32_t> partner;
+      std::vector<std::int32_t> first;     ///< where the pairs of each of its grains begin, and the end
+      PairMemory memory;
+    };
+    std::vector<Contacts> slabs;
+    std::vector<std::int32_t> begin;       ///< first grain of each slab
+    std::vector<std::uint16_t> slab;       ///< of each grain
+    std::vector<std::int32_t> oldPlace;    ///< by new place; −1: was not there
+
+    void clear() { *this = Remembered{}; }
   };
-  /// What a thread needs while it makes an inner list: candidates, and the last inner list.
+  /// What a thread needs while it makes the lists of a slab: the pairs that it finds, and the last inner list.
   struct Room {
+    std::vector<std::int32_t> partners, outerI, outerJ;
     std::vector<std::int32_t> near, lastIndex;
     PairMemory lastMemory;
   };
-  using FlatPairs = std::vector<std::int32_t>;  // i0 j0 i1 j1 …
-  void turnRound(double* memory) const;
-  void searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, FlatPairs& own, FlatPairs& before) const;
-  static void searchAcross(const State& state, const Slabs& slabs, const CellGrid& grid, const Periods& periods, int slab, FlatPairs& across,
+  /// A pair of a grain and an image, by its number in the slab.
+  struct Across {
+    std::int32_t grain, image;
+  };
+  static void searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, SlabPairs& pairs, Room& room);
+  static void searchAcross(const State& state, const Slabs& slabs, const CellGrid& grid, const Periods& periods, int slab, std::vector<Across>& across,
                            std::vector<Image>& images);
+  static void addAcross(const std::vector<Across>& across, SlabPairs& pairs);
   void placeImages(State& state, const Slabs& slabs);
-  void placeRemembered(std::size_t grains, const std::vector<std::int32_t>& newPlace);
+  void findOldPlaces(std::size_t grains, const std::vector<std::int32_t>& newPlace);
+  template <class Real>
+  bool recall(std::int32_t seenFrom, std::int32_t partner, Real* memory) const;
+  template <class Real>
   void handMemory(SlabPairs& pairs) const;
   void filterSlab(State& state, SlabPairs& pairs, double share, Room& room) const;
   template <class Real>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "core/vec.h"
 
@@ -32,16 +33,19 @@ class SpeedMap {
     while (cells(0) * cells(1) * cells(2) > most) edge_ *= 1.25;
     for (int axis = 0; axis < 3; ++axis) count_[static_cast<std::size_t>(axis)] = static_cast<std::size_t>(cells(axis));
     fastest2_.assign(count_[0] * count_[1] * count_[2], 0.0);
+    cells_.reserve(rows.size());
     for (const GrainRow& row : rows) {
-      double& fastest = fastest2_[cellOf(row)];
-      fastest = std::max(fastest, norm2(row.velocity()));
+      const std::size_t cell = cellOf(row);
+      cells_.push_back(static_cast<std::uint32_t>(cell));
+      fastest2_[cell] = std::max(fastest2_[cell], norm2(row.velocity()));
     }
     spread(1, count_[0]);
     spread(count_[0], count_[1]);
     spread(count_[0] * count_[1], count_[2]);
   }
 
-  double near(const GrainRow& row) const { return std::sqrt(fastest2_[cellOf(row)]); }
+  /// Near a grain.
+  double near(std::size_t grain) const { return std::sqrt(fastest2_[cells_[grain]]); }
 
  private:
   std::size_t cellOf(const GrainRow& row) const {
@@ -69,6 +73,7 @@ class SpeedMap {
   double edge_ = 0;
   std::array<std::size_t, 3> count_{};
   std::vector<double> fastest2_;
+  std::vector<std::uint32_t> cells_;  // of the grains
 };
 
 }  // namespace
@@ -87,7 +92,7 @@ std::vector<float> chooseSkins(const std::vector<GrainRow>& rows, const SkinRule
   std::vector<float> skins(rows.size(), roundedDown(rule.least));
   if (rows.empty() || !(rule.most > rule.least)) return skins;
   const SpeedMap speeds(rows);
-  for (std::size_t g = 0; g < rows.size(); ++g) skins[g] = roundedDown(std::clamp(rule.time * speeds.near(rows[g]), rule.least, rule.most));
+  for (std::size_t g = 0; g < rows.size(); ++g) skins[g] = roundedDown(std::clamp(rule.time * speeds.near(g), rule.least, rule.most));
   return skins;
 }
 

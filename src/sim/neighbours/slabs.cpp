@@ -30,6 +30,14 @@ void radixSort(std::vector<Keyed>& items, std::uint64_t largest) {
 
 }  // namespace
 
+std::array<int, 3> axesByExtent(const Vec3& extent) {
+  int longest = 0;
+  extent.maxCoeff(&longest);
+  int middle = (longest + 1) % 3, shortest = (longest + 2) % 3;
+  if (extent[shortest] > extent[middle]) std::swap(middle, shortest);
+  return {shortest, middle, longest};
+}
+
 Slabs sortIntoSlabs(const std::vector<GrainRow>& rows, double reach, std::vector<std::int32_t>& order) {
   Box box;
   for (const GrainRow& row : rows) box.extend(Vec3(row.x, row.y, row.z));
@@ -40,33 +48,28 @@ Slabs sortIntoSlabs(const std::vector<GrainRow>& rows, double reach, std::vector
     return slabs;
   }
   const Vec3 extent = box.sizes();
-  int along = 0;
-  extent.maxCoeff(&along);
-  // Grains follow each other along the shortest side: the partners of one are then not far from it in the order.
-  int across = (along + 1) % 3, last = (along + 2) % 3;
-  if (extent[last] > extent[across]) std::swap(across, last);
+  const auto [last, across, along] = axesByExtent(extent);
   // A little more than the reach: rounding must not put a pair into slabs that are not neighbours.
   const double least = reach * (1 + 1e-9);
   const int count = static_cast<int>(std::clamp(std::floor(extent[along] / least), 1.0, static_cast<double>(mostSlabs)));
   const double thickness = std::max(extent[along] / count, least);
   const double cell = std::max({reach, extent[across] / mostCells, extent[last] / mostCells});
+  const auto cells = [&](int axis) { return static_cast<std::uint64_t>(extent[axis] / cell) + 1; };
+  const std::uint64_t rowsOfCells = cells(across), cellsInRow = cells(last);
 
+  slabs.first.assign(static_cast<std::size_t>(count) + 1, 0);
   std::vector<Keyed> items(rows.size());
   std::uint64_t largest = 0;
   for (std::size_t g = 0; g < rows.size(); ++g) {
     const Vec3 p = Vec3(rows[g].x, rows[g].y, rows[g].z) - box.min();
     const auto slab = std::min<std::uint64_t>(static_cast<std::uint64_t>(p[along] / thickness), static_cast<std::uint64_t>(count - 1));
     const auto u = static_cast<std::uint64_t>(p[across] / cell), v = static_cast<std::uint64_t>(p[last] / cell);
-    items[g] = {(slab << 26) | (u << 13) | v, static_cast<std::int32_t>(g)};
+    items[g] = {(slab * rowsOfCells + u) * cellsInRow + v, static_cast<std::int32_t>(g)};
     largest = std::max(largest, items[g].key);
+    ++slabs.first[slab + 1];
   }
   radixSort(items, largest);
-
-  slabs.first.assign(static_cast<std::size_t>(count) + 1, 0);
-  for (std::size_t g = 0; g < items.size(); ++g) {
-    order[g] = items[g].place;
-    ++slabs.first[(items[g].key >> 26) + 1];
-  }
+  for (std::size_t g = 0; g < items.size(); ++g) order[g] = items[g].place;
   for (std::size_t s = 1; s < slabs.first.size(); ++s) slabs.first[s] += slabs.first[s - 1];
   return slabs;
 }

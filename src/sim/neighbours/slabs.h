@@ -4,6 +4,7 @@
 // grains alone and never on the number of threads.
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct Slabs {
   int of(std::int32_t grain) const { return static_cast<int>(std::upper_bound(first.begin(), first.end(), grain) - first.begin()) - 1; }
   std::int32_t end(int slab) const { return first[static_cast<std::size_t>(slab) + 1]; }
 };
+
+/// The axes of a box from its shortest side to its longest. Grains follow each other along the shortest: the partners of one are then not far
+/// from it in the order.
+std::array<int, 3> axesByExtent(const Vec3& extent);
 
 /// \brief The order in which grains are to lie in memory: by slab, then by cells within the slab, then as they were.
 /// \param reach  m: the farthest distance of the centres of a listed pair
