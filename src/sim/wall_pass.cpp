@@ -10,7 +10,6 @@ namespace tsubu::sim {
 
 namespace {
 
-V3 v3(const Vec3& a) { return {a.x(), a.y(), a.z()}; }
 Vec3 centreOf(const GrainRow& row) { return {row.x, row.y, row.z}; }
 
 // A contact lies at least this share of the radius away from the centre, so that its direction survives the arithmetic.
@@ -252,8 +251,7 @@ void WallPass::evaluateSlab(int slabNumber, const PassContext& context, WallKern
   std::vector<std::int32_t>& near = near_[static_cast<std::size_t>(slabNumber)];
   for (std::size_t w = 0; w < walls_->size(); ++w) {
     if (places_[w].plane) {
-      findNearPlane(slab, w, context, near);
-      evaluatePlane(slab, w, near, context, batch);
+      evaluatePlane(slab, w, context, batch);
     } else {
       findNearMesh(slab, w, context, near);
       for (const std::int32_t n : near) evaluateGroup(slab, slab.groups[static_cast<std::size_t>(n)], slab.ways[static_cast<std::size_t>(n)], context, batch);
@@ -264,21 +262,6 @@ void WallPass::evaluateSlab(int slabNumber, const PassContext& context, WallKern
 }
 
 // Most groups need nothing. Which they are is found without a branch: it cannot be foreseen.
-void WallPass::findNearPlane(const SlabWalls& slab, std::size_t wall, const PassContext& context, std::vector<std::int32_t>& found) const {
-  const std::int32_t first = slab.firstGroup[wall], last = slab.firstGroup[wall + 1];
-  const V3 normal = v3(places_[wall].plane->normal);
-  const double offset = places_[wall].plane->offset;
-  found.resize(static_cast<std::size_t>(last - first));
-  std::size_t count = 0;
-  for (std::int32_t n = first; n < last; ++n) {
-    const WallGroup& group = slab.groups[static_cast<std::size_t>(n)];
-    const GrainRow& row = context.rows[group.grain];
-    found[count] = n;
-    count += (dot(normal, row.position()) - offset < row.radius) | (group.awake != 0);
-  }
-  found.resize(count);
-}
-
 void WallPass::findNearMesh(const SlabWalls& slab, std::size_t wall, const PassContext& context, std::vector<std::int32_t>& found) const {
   const std::int32_t first = slab.firstGroup[wall], last = slab.firstGroup[wall + 1];
   found.resize(static_cast<std::size_t>(last - first));
@@ -351,7 +334,7 @@ void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, WallWay& way, co
       const WallContact& contact = contacts[next];
       const Vec3 normal = place.rotation * contact.normal;
       note(slab, c, normal, contact.weight);
-      put(slab, place, group, c, std::max(contact.distance, leastDistance * row.radius) * normal,
+      put(slab, place, group, c, contact.weight, std::max(contact.distance, leastDistance * row.radius) * normal,
           place.turns ? place.twist.at(place.rotation * contact.point + place.pose.translation) : place.twist.velocity, context, batch);
     } else if (candidate.touching) {
       putEnded(slab, place, group, c, context, batch);
@@ -360,14 +343,15 @@ void WallPass::evaluateGroup(SlabWalls& slab, WallGroup& group, WallWay& way, co
 }
 
 // An unbounded plane has one feature and needs no frame of its own; a group is awake while its grain touches.
-void WallPass::evaluatePlane(SlabWalls& slab, std::size_t wall, const std::vector<std::int32_t>& near, const PassContext& context, Batch& batch) {
+void WallPass::evaluatePlane(SlabWalls& slab, std::size_t wall, const PassContext& context, Batch& batch) {
   const WallPlace place = places_[wall];  // a copy that no store can change
   const Vec3 normal = place.plane->normal;
-  for (const std::int32_t n : near) {
+  for (std::int32_t n = slab.firstGroup[wall]; n < slab.firstGroup[wall + 1]; ++n) {
     WallGroup& group = slab.groups[static_cast<std::size_t>(n)];
     const GrainRow& row = context.rows[group.grain];
     const Vec3 centre = centreOf(row);
     const double height = place.plane->signedDistance(centre);
+    if (!((height < row.radius) | (group.awake != 0))) continue;
     if (height < 0) {
       WallWay& way = slab.ways[static_cast<std::size_t>(n)];
       const std::uint32_t feature = 0;
@@ -379,7 +363,7 @@ void WallPass::evaluatePlane(SlabWalls& slab, std::size_t wall, const std::vecto
     group.awake = height < row.radius;
     if (group.awake) {
       if (!touched) note(slab, group.first, normal, 1);  // a plane keeps its normal
-      put(slab, place, group, group.first, std::max(height, leastDistance * row.radius) * normal,
+      put(slab, place, group, group.first, 1, std::max(height, leastDistance * row.radius) * normal,
           place.turns ? place.twist.at(centre - height * normal) : place.twist.velocity, context, batch);
     } else if (touched) {
       putEnded(slab, place, group, group.first, context, batch);
@@ -402,13 +386,13 @@ void WallPass::putEnded(SlabWalls& slab, const WallPlace& place, const WallGroup
   candidate.touching = false;
   candidate.weight = 1;
   const GrainRow& row = context.rows[group.grain];
-  put(slab, place, group, candidateIndex, 2 * row.radius * candidate.normal, place.turns ? place.twist.at(centreOf(row)) : place.twist.velocity, context,
+  put(slab, place, group, candidateIndex, 1, 2 * row.radius * candidate.normal, place.turns ? place.twist.at(centreOf(row)) : place.twist.velocity, context,
       batch);
 }
 
 // Puts a contact on the bench: from the wall to the centre (m), and the velocity (m/s) of the wall where they touch, in the world.
-void WallPass::put(SlabWalls& slab, const WallPlace& place, const WallGroup& group, std::int32_t candidateIndex, const Vec3& d, const Vec3& velocity,
-                   const PassContext& context, Batch& batch) {
+void WallPass::put(SlabWalls& slab, const WallPlace& place, const WallGroup& group, std::int32_t candidateIndex, double weight, const Vec3& d,
+                   const Vec3& velocity, const PassContext& context, Batch& batch) {
   if (batch.count == chunkSize) flush(slab, context, batch);
   const auto k = static_cast<std::size_t>(batch.count++);
   const Vec3& spin = place.twist.angularVelocity;
@@ -416,7 +400,7 @@ void WallPass::put(SlabWalls& slab, const WallPlace& place, const WallGroup& gro
   batch.wall[k] = group.wall;
   batch.candidate[k] = candidateIndex;
   batch.rows[k] = {d.x(), d.y(), d.z(), 0, velocity.x(), velocity.y(), velocity.z(), place.inverseMass, spin.x(), spin.y(), spin.z(), 0};
-  batch.stage.weight[k] = slab.candidates[static_cast<std::size_t>(candidateIndex)].weight;
+  batch.stage.weight[k] = weight;
   batch.stage.pairClass[k] = static_cast<std::int32_t>(context.material[group.grain] * context.materials + (*walls_)[group.wall].material);
 }
 

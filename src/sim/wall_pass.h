@@ -116,12 +116,11 @@ class WallPass {
   void buildSlab(const State& state, std::int32_t begin, std::int32_t end, double wallSkin, double dt, const Before& before, SlabWalls& slab) const;
   void addGroup(const State& state, std::int32_t grain, std::size_t wall, const Vec3& start, const std::vector<std::uint32_t>& features,
                 const Before& before, SlabWalls& slab) const;
-  void findNearPlane(const SlabWalls& slab, std::size_t wall, const PassContext& context, std::vector<std::int32_t>& found) const;
   void findNearMesh(const SlabWalls& slab, std::size_t wall, const PassContext& context, std::vector<std::int32_t>& found) const;
-  void evaluatePlane(SlabWalls& slab, std::size_t wall, const std::vector<std::int32_t>& near, const PassContext& context, Batch& batch);
+  void evaluatePlane(SlabWalls& slab, std::size_t wall, const PassContext& context, Batch& batch);
   static void note(SlabWalls& slab, std::int32_t candidateIndex, const Vec3& normal, double weight);
-  TSUBU_INLINE void put(SlabWalls& slab, const WallPlace& place, const WallGroup& group, std::int32_t candidateIndex, const Vec3& d, const Vec3& velocity,
-           const PassContext& context, Batch& batch);
+  TSUBU_INLINE void put(SlabWalls& slab, const WallPlace& place, const WallGroup& group, std::int32_t candidateIndex, double weight, const Vec3& d,
+                        const Vec3& velocity, const PassContext& context, Batch& batch);
   void putEnded(SlabWalls& slab, const WallPlace& place, const WallGroup& group, std::int32_t candidateIndex, const PassContext& context, Batch& batch);
   void evaluateGroup(SlabWalls& slab, WallGroup& group, WallWay& way, const PassContext& context, Batch& batch);
   static void wake(const Surface& surface, const Vec3& centre, double radius, double margin, SlabWalls& slab, WallGroup& group, WallWay& way);

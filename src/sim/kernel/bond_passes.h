@@ -55,7 +55,7 @@ TSUBU_INLINE void gatherFourBonds(const BondRows& first, const BondRows& second,
                                   BondStage& s) {
   const D4 signs{-1, -1, -1, 1};
   D4 x[4];
-  for (int k = 0; k < 4; ++k) x[k] = load4(&first.rows[is[k]].x) + signs * load4(&second.rows[js[k]].x);
+  for (int k = 0; k < 4; ++k) x[k] = plusSigned(load4(&first.rows[is[k]].x), signs, load4(&second.rows[js[k]].x));
   toColumns(x, q, s.d, s.radiusSum);
   if (!first.half) return gatherMotion<false>(first, second, is, js, q, s.half);
   gatherMotion<true>(first, second, is, js, q, s.half);
