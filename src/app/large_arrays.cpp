@@ -44,7 +44,7 @@ void returnLargeArrays() {
 #ifdef __GLIBC__
   // So that old and new neighbour lists do not add up in large beds. Smaller arrays are used again: pages that come anew cost time.
   mallopt(M_MMAP_THRESHOLD, 4 * 1024 * 1024);
-  mallopt(M_TRIM_THRESHOLD, 16 * 1024 * 1024);
+  mallopt(M_TRIM_THRESHOLD, 4 * 1024 * 1024);  // the usual 128 KiB gives the arrays of a small bed back at every search
 #endif
 }
 

@@ -109,8 +109,8 @@ void Simulation::Impl::rebuildLists() {
     state.setImages(0);
     wrapGrains();
   }
-  giveSkins();
   pairs.rememberContacts(slabs, team);
+  giveSkins();
   std::vector<std::int32_t> order;
   double reach = 0;
   for (std::size_t g = 0; g < state.size(); ++g) reach = std::max(reach, 2 * (state.rows[g].radius + state.skin[g]));

@@ -65,33 +65,40 @@ bool WallPass::touches(const Vec3& centre, double radius) const {
   return false;
 }
 
-/// What was known before the lists were made anew: groups with contacts in force, by grain in the new order.
+/// Contacts in force before the lists were made anew, by grain in the new order.
 struct WallPass::Before {
-  struct Place {
+  struct Contact {
     std::int32_t grain;
-    std::uint32_t slab, group;
+    std::uint16_t wall;
+    Vec3 centre;  // of the grain, in the frame of the wall
+    WallCandidate candidate;
   };
-  std::vector<SlabWalls> slabs;
-  std::vector<Place> places;
-  std::vector<std::int32_t> first;  ///< of each grain, and the end
+  std::vector<Contact> contacts;
+  std::vector<double> memory;              // `stateSize` numbers for each
+  std::size_t stateSize;
+  std::vector<std::int32_t> first, order;  // where the contacts of each grain begin in `order`, and the end
 
-  Before(std::vector<SlabWalls> given, std::size_t grains, const std::vector<std::int32_t>& newPlace) : slabs(std::move(given)), first(grains + 1, 0) {
-    std::vector<Place> found;
-    for (std::size_t s = 0; s < slabs.size(); ++s) {
-      const SlabWalls& slab = slabs[s];
+  Before(const std::vector<SlabWalls>& slabs, std::size_t size, std::size_t grains, const std::vector<std::int32_t>& newPlace)
+      : stateSize(size), first(grains + 1, 0) {
+    for (const SlabWalls& slab : slabs) {
       for (std::size_t n = 0; n < slab.groups.size(); ++n) {
         const WallGroup& group = slab.groups[n];
         const std::int32_t grain = newPlace[static_cast<std::size_t>(group.grain)];
-        const auto begin = slab.candidates.begin() + group.first, end = slab.candidates.begin() + group.last;
-        if (grain < 0 || std::none_of(begin, end, [](const WallCandidate& candidate) { return candidate.touching; })) continue;
-        found.push_back({grain, static_cast<std::uint32_t>(s), static_cast<std::uint32_t>(n)});
-        ++first[static_cast<std::size_t>(grain) + 1];
+        if (grain < 0) continue;
+        for (std::int32_t c = group.first; c < group.last; ++c) {
+          const WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(c)];
+          if (!candidate.touching) continue;
+          contacts.push_back({grain, group.wall, slab.ways[n].centre, candidate});
+          memory.insert(memory.end(), slab.memoryOf(c), slab.memoryOf(c) + stateSize);
+          ++first[static_cast<std::size_t>(grain) + 1];
+        }
       }
     }
     for (std::size_t g = 1; g < first.size(); ++g) first[g] += first[g - 1];
     std::vector<std::int32_t> next = first;
-    places.resize(found.size());
-    for (const Place& place : found) places[static_cast<std::size_t>(next[static_cast<std::size_t>(place.grain)]++)] = place;
+    order.resize(contacts.size());
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      order[static_cast<std::size_t>(next[static_cast<std::size_t>(contacts[k].grain)]++)] = static_cast<std::int32_t>(k);
   }
 };
 
@@ -99,7 +106,7 @@ void WallPass::build(const State& state, const Slabs& slabs, double wallSkin, do
   settle();
   double work = 0;
   for (const SlabWalls& slab : slabs_) work += slab.work;
-  const Before before(std::move(slabs_), state.size(), newPlace);
+  const Before before(slabs_, static_cast<std::size_t>(law_.stateSize), state.size(), newPlace);
   slabs_.assign(static_cast<std::size_t>(slabs.count()), SlabWalls{});
   near_.resize(slabs_.size());
   if (!slabs_.empty()) slabs_[0].work = work;
@@ -188,22 +195,18 @@ void WallPass::addGroup(const State& state, std::int32_t grain, std::size_t wall
   }
   slab.memory.resize(slab.candidates.size() * slab.stateSize);
   group.last = static_cast<std::int32_t>(slab.candidates.size());
-  for (auto k = before.first[static_cast<std::size_t>(grain)]; k < before.first[static_cast<std::size_t>(grain) + 1]; ++k) {
-    const Before::Place& place = before.places[static_cast<std::size_t>(k)];
-    const SlabWalls& old = before.slabs[place.slab];
-    const WallGroup& oldGroup = old.groups[place.group];
-    if (oldGroup.wall != group.wall) continue;
-    way.centre = old.ways[place.group].centre;
+  for (auto n = before.first[static_cast<std::size_t>(grain)]; n < before.first[static_cast<std::size_t>(grain) + 1]; ++n) {
+    const auto k = static_cast<std::size_t>(before.order[static_cast<std::size_t>(n)]);
+    const Before::Contact& old = before.contacts[k];
+    if (old.wall != group.wall) continue;
+    way.centre = old.centre;
     if (!state.wrap.empty()) way.centre += places_[wall].rotation.transpose() * state.wrap[static_cast<std::size_t>(grain)];
-    for (std::int32_t c = oldGroup.first; c < oldGroup.last; ++c) {
-      const WallCandidate& candidate = old.candidates[static_cast<std::size_t>(c)];
-      const auto at = std::lower_bound(features.begin(), features.end(), candidate.feature);
-      if (!candidate.touching || at == features.end() || *at != candidate.feature) continue;
-      const std::int32_t same = group.first + static_cast<std::int32_t>(at - features.begin());
-      slab.candidates[static_cast<std::size_t>(same)] = candidate;
-      std::copy_n(old.memoryOf(c), slab.stateSize, slab.memoryOf(same));
-      group.awake = 1;
-    }
+    const auto at = std::lower_bound(features.begin(), features.end(), old.candidate.feature);
+    if (at == features.end() || *at != old.candidate.feature) continue;
+    const std::int32_t candidate = group.first + static_cast<std::int32_t>(at - features.begin());
+    slab.candidates[static_cast<std::size_t>(candidate)] = old.candidate;
+    std::copy_n(before.memory.data() + k * slab.stateSize, slab.stateSize, slab.memoryOf(candidate));
+    group.awake = 1;
   }
   slab.groups.push_back(group);
   slab.ways.push_back(way);
