@@ -99,6 +99,9 @@ TEST(PeriodicLists, HoldEveryNearPairOnceWithItsNearestImage) {
       }
       for (std::size_t k = 0; k < slab.outerI.size(); ++k) {
         const std::int32_t i = slab.outerI[k], j = slab.grainOf(slab.outerJ[k]);
+        if (k > 0) {
+          ASSERT_LT(std::pair(slab.outerI[k - 1], slab.outerJ[k - 1]), std::pair(i, slab.outerJ[k])) << "out of order, round " << round;
+        }
         ASSERT_LT(i, static_cast<std::int32_t>(grains));
         ASSERT_TRUE(listed.insert({std::min(i, j), std::max(i, j)}).second) << "listed twice, round " << round;
         const Vec3 d = placeOf(state.rows[static_cast<std::size_t>(i)]) - placeOf(state.rows[static_cast<std::size_t>(slab.outerJ[k])]);
