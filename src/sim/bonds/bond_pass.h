@@ -7,6 +7,7 @@
 
 #include "sim/bonds/bond_columns.h"
 #include "sim/bonds/bond_search.h"
+#include "sim/bonds/wall_bonds.h"
 #include "sim/kernel/kernels.h"
 #include "sim/pass.h"
 
@@ -27,22 +28,6 @@ class BondPass : public ForcePass {
   std::uint64_t hash(const State& state) const override;
 
  private:
-  /// Bonds of the grains of a slab with a wall: second ends are rows of their own, one for each bond, that move with the wall.
-  struct WallBonds {
-    BondColumns bonds;
-    std::vector<Vec3> foot;  ///< m, frame of the wall
-    std::vector<GrainRow> rows;
-    std::vector<HalfStepRow> half;
-    std::vector<ForceRow> forces;
-    Tally work;  ///< J: done by the wall
-
-    void add(std::int32_t grain, const Vec3& place, const BondBody& body, const BondMemory& memory);
-    void take(const WallBonds& from, std::size_t k);
-    void drop(const std::vector<char>& marked);
-    void place(const WallMotion& motion, const std::vector<GrainRow>& grains, double time, double dt);
-    void work_(double dt);
-  };
-
   /// The bonds of one kind whose grain of the lower place lies in one slab.
   struct SlabBonds {
     BondColumns near;  ///< whose other grain lies in this slab or the next

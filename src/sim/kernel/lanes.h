@@ -173,7 +173,7 @@ TSUBU_INLINE unsigned whereLess(const D8& a, const D8& b) {
   return bits(a.low, b.low) | bits(a.high, b.high) << 4;
 #else
   unsigned bits = 0;
-  for (int k = 0; k < 8; ++k) bits |= static_cast<unsigned>((k < 4 ? a.low : a.high)[k % 4] < (k < 4 ? b.low : b.high)[k % 4]) << k;
+  for (int k = 0; k < 8; ++k) bits |= static_cast<unsigned>(a[k] < b[k]) << k;
   return bits;
 #endif
 }
