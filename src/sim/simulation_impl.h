@@ -152,6 +152,7 @@ class Simulation::Impl {
   void book(double share);
   StepOf stepOf() const;
   void evaluateContacts(For whom);
+  std::vector<double> workOfSlabs() const;
   template <class Real>
   void evaluateContactsIn(For whom, std::vector<StageIn<Real>>& pairStages);
   void move();

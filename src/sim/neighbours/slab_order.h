@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 #include <vector>
 
 #include "core/thread_team.h"
@@ -14,12 +15,29 @@ namespace tsubu::sim {
 /// Few, so that what a block works on stays with its thread; enough that no thread waits long for another.
 inline constexpr int blocksPerThread = 4;
 
-/// \brief Calls evaluate(slab, thread) once for each of `count` slabs, an odd one after both its neighbours, and complete(slab, thread) once
-/// for each as soon as nothing will be added to it any more and nobody will read it: it and the slab before have been evaluated.
+/// \brief Shares slabs out in blocks of about the same work: where each begins, at an even slab, and the number of slabs at the end.
+/// \param work  of each slab, in any unit
+inline std::vector<int> shareSlabs(const std::vector<double>& work, int threads) {
+  const int count = static_cast<int>(work.size()), blocks = std::min(blocksPerThread * threads, (count + 1) / 2);
+  const double each = std::accumulate(work.begin(), work.end(), 0.0) / std::max(blocks, 1);
+  std::vector<int> begin;
+  double done = 0;
+  for (int slab = 0; slab < count; ++slab) {
+    const auto begun = static_cast<int>(begin.size());
+    if (slab % 2 == 0 && begun < blocks && done >= each * begun) begin.push_back(slab);
+    done += work[static_cast<std::size_t>(slab)];
+  }
+  begin.push_back(count);
+  return begin;
+}
+
+/// \brief Calls evaluate(slab, thread) once for each slab of the blocks (`begin`: see shareSlabs), an odd one after both its neighbours, and
+/// complete(slab, thread) once for each as soon as nothing will be added to it any more and nobody will read it: it and the slab before have been
+/// evaluated.
 template <class Evaluate, class Complete>
-void overSlabs(int count, ThreadTeam& team, const Evaluate& evaluate, const Complete& complete) {
-  const int evens = (count + 1) / 2, blocks = std::min(blocksPerThread * team.threads(), evens);
-  const auto firstOf = [&](int block) { return std::min(2 * (evens * block / blocks), count); };
+void overSlabs(const std::vector<int>& begin, ThreadTeam& team, const Evaluate& evaluate, const Complete& complete) {
+  const int count = begin.back(), blocks = static_cast<int>(begin.size()) - 1;
+  const auto firstOf = [&](int block) { return begin[static_cast<std::size_t>(block)]; };
   const auto finish = [&](int odd, int thread) {
     evaluate(odd, thread);
     for (int slab = odd; slab < std::min(odd + 2, count); ++slab) complete(slab, thread);
