@@ -19,7 +19,10 @@ void setRow(GrainRow& row, V3 x, V3 v, V3 s) {
 
 void RungeKutta::keepMemory(const PairLists& pairs, const WallPass& walls) {
   pairs_.resize(pairs.slabs().size());
-  for (std::size_t s = 0; s < pairs_.size(); ++s) pairs_[s].start = pairs.slabs()[s].memory.wide();
+  for (std::size_t s = 0; s < pairs_.size(); ++s) {
+    const auto& memory = pairs.slabs()[s].memory.wide();
+    pairs_[s].start.assign(memory.begin(), memory.end());
+  }
   wallsBefore_ = walls.slabs();
 }
 
@@ -221,7 +224,7 @@ void RungeKutta::moveTo(int stage, State& state, const Slabs& slabs, PairLists& 
     }
     for (MemoryStages* memory : {&pairs_[s], &walls_[s]})
       for (std::size_t k = 0; k < memory->in.size(); ++k) memory->in[k] = memory->start[k] + c * memory->rate[k];
-    pairs.slabs()[s].memory.wide() = pairs_[s].in;
+    pairs.slabs()[s].memory.wide().assign(pairs_[s].in.begin(), pairs_[s].in.end());
     walls.slabs()[s].memory = walls_[s].in;
   });
 }

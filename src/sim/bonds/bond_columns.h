@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/line_vector.h"
 #include "sim/bonds/bond_law.h"
 #include "sim/grain_rows.h"
 
@@ -15,7 +16,7 @@ struct BondColumns {
   enum Name { shearX, shearY, shearZ, turnX, turnY, turnZ, rest, springAlong, springBend, radius, length, critical, bendCritical, columns };
 
   std::vector<std::int32_t> i, j;
-  std::array<std::vector<double>, columns> column;
+  std::array<LineVector<double>, columns> column;
 
   std::size_t size() const { return i.size(); }
   double& at(Name name, std::size_t k) { return column[name][k]; }

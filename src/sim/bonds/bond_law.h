@@ -24,11 +24,20 @@
 
 namespace tsubu::sim {
 
+/// B7–B10 as lengths: over k_n a stress is what the outermost fibre is stretched by, and the springs need not be asked for their forces.
+struct BondLimits {
+  double softness, softnessPerLength;  ///< m³/N, m²/N: 1/k_n is the first, or the second times the length that the bond was made with
+  double tension, compression;         ///< Pa
+  double shear, pressureSlope;         ///< of B9, over k_t/k_n
+  double stretch;                      ///< of B10
+};
+
 /// What all bonds of a kind have in common.
 struct BondKind {
   double shearOverNormal;  ///< k_t/k_n
   double eta[bondWays];    ///< B4: shares; B5: 1/s; B6: dashpots over critical ones, of BondBody
   BondStrength strength;
+  BondLimits limits;
 };
 
 inline BondKind kindOf(const Bonding& bonding) {
@@ -40,7 +49,10 @@ inline BondKind kindOf(const Bonding& bonding) {
     kind.eta[across] *= std::sqrt(2.0 / 7.0 * kind.shearOverNormal);
     kind.eta[twisting] *= std::sqrt(2 * kind.shearOverNormal);
   }
-  kind.strength = bonding.strength;
+  const BondStrength& strength = kind.strength = bonding.strength;
+  kind.limits = {bonding.modulus > 0 ? 0 : 1 / bonding.stiffness, bonding.modulus > 0 ? 1 / bonding.modulus : 0, strength.tension,
+                 strength.compression, strength.shear * bonding.stiffnessRatio, strength.pressureSlope * bonding.stiffnessRatio,
+                 strength.stretch};
   return kind;
 }
 
@@ -103,7 +115,7 @@ TSUBU_INLINE double springProduct(const BondSprings& k, const BondStrain& a, con
                 k.bend * dot(a.bend, b.bend));
 }
 
-/// What springs and dampers do: forces along and across the bond, moments about it and across it, on i.
+/// What springs do: forces along and across the bond, moments about it and across it, on i.
 struct BondPull {
   double along;
   V3 across;
@@ -125,15 +137,15 @@ TSUBU_INLINE double bondLoad(const BondStrength& strength, const BondBody& body,
   return larger(larger((fibre - axial) / strength.tension, (fibre + axial) / strength.compression),
                 larger(shear / resistance, r / (body.length * strength.stretch)));
 }
-/// Is that less than 1? Without quotients and roots, which a loop over bonds would wait for: both sides of each comparison times A r_b.
-TSUBU_INLINE bool bondHolds(const BondStrength& strength, const BondBody& body, const BondPull& pull, double r) {
-  const double radius2 = body.radius * body.radius, volume = bondPi * radius2 * body.radius, push = pull.along * body.radius;
-  const double fibre = smaller(strength.tension * volume + push, strength.compression * volume - push);  // left for 4 M
-  const double shear = strength.shear * volume + strength.pressureSlope * larger(push, 0) - 2 * std::abs(pull.twist);  // left for r_b F
-  const double bending2 = 16 * norm2(pull.bend), shear2 = radius2 * norm2(pull.across);
+/// Is that less than 1? Without quotients and roots, which a loop over bonds would wait for.
+TSUBU_INLINE bool bondHolds(const BondLimits& limits, const BondBody& body, const BondMemory& memory, double twist, double r) {
+  const double stretch = memory.rest - r, softness = limits.softness + limits.softnessPerLength * body.length;
+  const double bend = smaller(limits.tension * softness + stretch, limits.compression * softness - stretch);  // left for r_b θ_t
+  const double shear = limits.shear * softness + limits.pressureSlope * larger(stretch, 0) - body.radius * std::abs(twist);  // left for s
+  const double bent2 = (body.radius * body.radius) * (norm2(memory.turn) - twist * twist);
   // Of a limit that is below zero already, the square says nothing.
-  const double over = larger(bending2 - fibre * larger(fibre, 0), shear2 - shear * larger(shear, 0));
-  return larger(over, r - strength.stretch * body.length) < 0;
+  const double over = larger(bent2 - bend * larger(bend, 0), norm2(memory.shear) - shear * larger(shear, 0));
+  return larger(over, r - limits.stretch * body.length) < 0;
 }
 
 /// The length of a bond, and reciprocals: of it, of the sum of the radii, and of its square half a step ago.
@@ -243,22 +255,44 @@ TSUBU_INLINE BondStrain strainBefore(const BondKind& kind, const BondStrain& now
 
 TSUBU_INLINE double signOf(double v) { return v > 0 ? 1.0 : (v < 0 ? -1.0 : 0.0); }
 
-/// B4, B6: takes from the pull what dampers hold back, and returns what they take from the energy in the step, J.
-/// \param lever  from the axis of i to that of j over R_i + R_j
+/// The force `force + along n` and the moment `moment + twist n`: to scale a vector and set right with one number what lies along n costs
+/// less than to take it apart.
+struct BondWrench {
+  double along;
+  V3 force;
+  double twist;
+  V3 moment;
+};
+TSUBU_INLINE BondWrench operator-(const BondWrench& a, const BondWrench& b) {
+  return {a.along - b.along, a.force - b.force, a.twist - b.twist, a.moment - b.moment};
+}
+
+/// B2.
+TSUBU_INLINE BondWrench wrenchOf(const BondSprings& k, const BondMemory& memory, double twist, double r) {
+  return {k.along * (memory.rest - r), -k.across * memory.shear, (k.bend - k.twist) * twist, -k.bend * memory.turn};
+}
+
+/// How the ends move against each other: the relative velocity where they meet (T0), the relative spin, and what of each is along n.
+struct BondSlip {
+  V3 velocity;
+  double along;
+  V3 spin;
+  double twist;
+};
+
+/// B4, B6: what dampers hold back.
 template <BondDamping damping>
-TSUBU_INLINE double dampPull(const BondKind& kind, const BondBody& body, const BondMotion& now, V3 n, V3 lever, double dt, BondPull& pull) {
-  const double vn = dot(now.velocity, n), wn = dot(now.spin, n);
-  const V3 vt = now.velocity - vn * n + cross(lever, now.spinSum), wt = now.spin - wn * n;
-  const auto hold = [&](BondWay way, double force, double v, double dashpot) {
-    return damping == BondDamping::percent ? kind.eta[way] * std::abs(force) * signOf(v) : kind.eta[way] * dashpot * v;
-  };
-  const auto holdAcross = [&](BondWay way, V3 force, V3 v, double dashpot) {
-    return (kind.eta[way] * (damping == BondDamping::percent ? std::sqrt(norm2(force) / larger(norm2(v), tiny)) : dashpot)) * v;
-  };
-  const double heldAlong = hold(along, pull.along, vn, body.critical), heldTwist = hold(twisting, pull.twist, wn, body.bendCritical);
-  const V3 heldAcross = holdAcross(across, pull.across, vt, body.critical), heldBend = holdAcross(bending, pull.bend, wt, body.bendCritical);
-  pull = {pull.along - heldAlong, pull.across - heldAcross, pull.twist - heldTwist, pull.bend - heldBend};
-  return dt * (heldAlong * vn + dot(heldAcross, vt) + heldTwist * wn + dot(heldBend, wt));
+TSUBU_INLINE BondWrench heldBack(const BondKind& kind, const BondBody& body, const BondStrain& strain, const BondSlip& slip, V3 n) {
+  const double* const eta = kind.eta;
+  if constexpr (damping == BondDamping::viscous) {
+    return {(eta[along] - eta[across]) * body.critical * slip.along, (eta[across] * body.critical) * slip.velocity,
+            (eta[twisting] - eta[bending]) * body.bendCritical * slip.twist, (eta[bending] * body.bendCritical) * slip.spin};
+  } else {
+    const BondPull pull = pullOf(springsOf(body, kind.shearOverNormal), strain);
+    const auto share = [](V3 force, V3 v) { return std::sqrt(norm2(force) / larger(norm2(v), tiny)) * v; };
+    return {eta[along] * std::abs(pull.along) * signOf(slip.along), eta[across] * share(pull.across, slip.velocity - slip.along * n),
+            eta[twisting] * std::abs(pull.twist) * signOf(slip.twist), eta[bending] * share(pull.bend, slip.spin - slip.twist * n)};
+  }
 }
 
 /// \brief What a bond does, with its springs as they are now.
@@ -267,15 +301,20 @@ template <BondDamping damping, bool breakable>
 TSUBU_INLINE BondForce pullBond(const BondKind& kind, const BondBody& body, const BondMemory& memory, V3 n, double r, double perRadiusSum,
                                 const BondMotion& now, double dt) {
   const V3 lever = (r * perRadiusSum) * n;
-  BondPull pull = pullOf(springsOf(body, kind.shearOverNormal), strainOf(memory, n, r));
+  const double twist = dot(memory.turn, n);
+  BondWrench wrench = wrenchOf(springsOf(body, kind.shearOverNormal), memory, twist, r);
   BondForce result{};
   result.holds = true;
-  if constexpr (breakable) result.holds = bondHolds(kind.strength, body, pull, r);
-  if constexpr (damping == BondDamping::percent || damping == BondDamping::viscous)
-    result.loss = dampPull<damping>(kind, body, now, n, lever, dt, pull);
-  result.force = pull.along * n + pull.across;
-  result.couple = cross(lever, pull.across);
-  result.moment = pull.twist * n + pull.bend;
+  if constexpr (breakable) result.holds = bondHolds(kind.limits, body, memory, twist, r);
+  if constexpr (damping == BondDamping::percent || damping == BondDamping::viscous) {
+    const BondSlip slip{now.velocity + cross(lever, now.spinSum), dot(now.velocity, n), now.spin, dot(now.spin, n)};
+    const BondWrench held = heldBack<damping>(kind, body, strainOf(memory, n, r), slip, n);
+    result.loss = dt * (held.along * slip.along + dot(held.force, slip.velocity) + held.twist * slip.twist + dot(held.moment, slip.spin));
+    wrench = wrench - held;
+  }
+  result.force = wrench.along * n + wrench.force;
+  result.couple = cross(lever, wrench.force);
+  result.moment = wrench.twist * n + wrench.moment;
   return result;
 }
 

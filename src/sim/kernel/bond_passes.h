@@ -20,7 +20,10 @@ inline constexpr bool dampsMotion = damping == BondDamping::percent || damping =
 
 TSUBU_INLINE void toColumns(D4 (&rows)[4], int q, BondStage::Column* columns, BondStage::Column& last) {
   transpose4(rows[0], rows[1], rows[2], rows[3]);
-  for (int c = 0; c < 3; ++c) store4(columns[c] + q, rows[c]);
+  // Not in a loop: GCC would go by way of memory.
+  store4(columns[0] + q, rows[0]);
+  store4(columns[1] + q, rows[1]);
+  store4(columns[2] + q, rows[2]);
   store4(last + q, rows[3]);
 }
 
@@ -45,7 +48,9 @@ TSUBU_INLINE void gatherMotion(const BondRows& first, const BondRows& second, co
     }
   }
   transpose4(v[0], v[1], v[2], v[3]);
-  for (int c = 0; c < 3; ++c) store4(to.velocity[c] + q, v[c]);
+  store4(to.velocity[0] + q, v[0]);
+  store4(to.velocity[1] + q, v[1]);
+  store4(to.velocity[2] + q, v[2]);
   toColumns(a, q, to.surfaceI, to.perRadiusI);
   toColumns(b, q, to.surfaceJ, to.perRadiusJ);
 }

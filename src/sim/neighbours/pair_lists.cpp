@@ -325,7 +325,8 @@ void PairLists::filterSlab(State& state, SlabPairs& pairs, double share, Room& r
 // Memory goes from the last inner list to the present one. Both follow the order of the outer list.
 template <class Real>
 void PairLists::keepMemory(SlabPairs& pairs, const Room& room) const {
-  const std::size_t count = pairs.outerIndex.size(), before = room.lastMemory.stride();
+  const std::size_t count = pairs.outerIndex.size(), stride = pairs.memory.stride();
+  const std::size_t before = room.lastIndex.size(), lastStride = room.lastMemory.stride();
   Real* const now = pairs.memory.columns<Real>();
   const Real* const last = room.lastMemory.columns<Real>();
   const auto components = static_cast<std::size_t>(stateSize_);
@@ -333,7 +334,7 @@ void PairLists::keepMemory(SlabPairs& pairs, const Room& room) const {
   for (std::size_t k = 0; k < count; ++k) {
     while (was < before && room.lastIndex[was] < pairs.outerIndex[k]) ++was;
     const bool known = was < before && room.lastIndex[was] == pairs.outerIndex[k];
-    for (std::size_t c = 0; c < components; ++c) now[c * count + k] = known ? last[c * before + was] : 0;
+    for (std::size_t c = 0; c < components; ++c) now[c * stride + k] = known ? last[c * lastStride + was] : 0;
   }
 }
 

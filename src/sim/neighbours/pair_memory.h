@@ -6,13 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "core/line_vector.h"
+
 namespace tsubu::sim {
 
 /// Gives a vector whose entries are all to be written a new size: with a little room to grow, where the standard library doubles it.
-template <class T>
-void fit(std::vector<T>& items, std::size_t count) {
+template <class Vector>
+void fit(Vector& items, std::size_t count) {
   if (count > items.capacity() || items.capacity() > 2 * count + 1024) {
-    items = std::vector<T>();
+    items = Vector();
     items.reserve(count + count / 16);
   }
   items.resize(count);
@@ -25,11 +27,11 @@ class PairMemory {
 
   /// Room for these pairs; all of it is to be written.
   void fit(std::size_t pairs, std::size_t components) {
-    stride_ = pairs;
+    stride_ = single_ ? wholeLines<float>(pairs) : wholeLines<double>(pairs);
     if (single_)
-      sim::fit(narrow_, pairs * components);
+      sim::fit(narrow_, stride_ * components);
     else
-      sim::fit(wide_, pairs * components);
+      sim::fit(wide_, stride_ * components);
   }
   std::size_t stride() const { return stride_; }
 
@@ -55,12 +57,12 @@ class PairMemory {
     return const_cast<PairMemory*>(this)->columnsOf<Real>().data();
   }
   /// The columns of doubles, one after the other.
-  std::vector<double>& wide() { return wide_; }
-  const std::vector<double>& wide() const { return wide_; }
+  LineVector<double>& wide() { return wide_; }
+  const LineVector<double>& wide() const { return wide_; }
 
  private:
   template <class Real>
-  std::vector<Real>& columnsOf() {
+  LineVector<Real>& columnsOf() {
     if constexpr (std::is_same_v<Real, float>)
       return narrow_;
     else
@@ -69,8 +71,8 @@ class PairMemory {
 
   bool single_ = false;
   std::size_t stride_ = 0;
-  std::vector<double> wide_;
-  std::vector<float> narrow_;
+  LineVector<double> wide_;
+  LineVector<float> narrow_;
 };
 
 }  // namespace tsubu::sim

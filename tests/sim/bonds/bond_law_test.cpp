@@ -253,17 +253,32 @@ TEST(BondLaw, ExponentialForgets) {
 TEST(BondLaw, LoadIsTheWorstStressOverItsStrength) {
   const double r = 0.8e-3, area = bondPi * r * r, inertia = bondPi * std::pow(r, 4) / 4;
   const double force = 3.0, bend = 1e-3, shear = 2.0, torsion = 5e-4;
-  const BondBody body{r, 0, 0, 2e-3, 0, 0};
+  Bonding stiff = someBonding(), elastic = someBonding();
+  elastic.modulus = 4e9;
+  const V3 n{0.36, -0.48, 0.8}, east{0.8, 0.6, 0}, north = cross(n, east);
   const auto load = [&](const BondStrength& strength, double normal, double q, double t, double m) {
     const auto pull = [&](double scale) {
-      return BondPull{scale * normal, scale * q * V3{0.6, 0, -0.8}, scale * t, scale * m * V3{0, -0.8, 0.6}};
+      return BondPull{scale * normal, scale * q * (0.6 * east - 0.8 * north), scale * t, scale * m * (0.28 * east + 0.96 * north)};
     };
-    // What the loop asks is the same question, whatever the size of the load.
-    for (double scale = 0.05; scale < 60; scale *= 1.07) {
-      EXPECT_EQ(bondHolds(strength, body, pull(scale), 1.25 * body.length), bondLoad(strength, body, pull(scale), 1.25 * body.length) < 1) << scale;
-      EXPECT_EQ(bondHolds(strength, body, pull(scale), scale * body.length), bondLoad(strength, body, pull(scale), scale * body.length) < 1) << scale;
+    // What the loop asks is the same question, whatever the size of the load and however stiffness is given: of springs that pull like that.
+    for (Bonding bonding : {stiff, elastic}) {
+      bonding.strength = strength;
+      bonding.radius = 1;
+      const BondBody body = bodyOf(bonding, r, 2e-3, unitInertia);
+      const BondKind kind = kindOf(bonding);
+      const BondSprings k = springsOf(body, kind.shearOverNormal);
+      const auto same = [&](double scale, double length) {
+        const BondPull p = pull(scale);
+        const double twist = -p.twist / k.twist;
+        const BondMemory memory{(-1 / k.across) * p.across, twist * n - (1 / k.bend) * p.bend, length + p.along / k.along};
+        EXPECT_EQ(bondHolds(kind.limits, body, memory, twist, length), bondLoad(strength, body, p, length) < 1) << scale;
+      };
+      for (double scale = 0.05; scale < 60; scale *= 1.07) {
+        same(scale, 1.25 * body.length);
+        same(scale, scale * body.length);
+      }
     }
-    return bondLoad(strength, body, pull(1), 1.25 * body.length);
+    return bondLoad(strength, {r, 0, 0, 2e-3, 0, 0}, pull(1), 1.25 * 2e-3);
   };
   const double never = BondStrength::never, bent = bend * r / inertia, axial = force / area;
   EXPECT_NEAR(load({2e6, never, never, 0, never}, -force, 0, 0, bend), (axial + bent) / 2e6, 1e-12);
