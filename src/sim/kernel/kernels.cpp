@@ -53,8 +53,9 @@ const Kernels& kernels() { return *chosen(); }
 namespace {
 template <class Kernel>
 Chosen<Kernel> choose(Kernel (*Kernels::*pass)(std::size_t, PassKind), std::size_t law, PassKind kind) {
-  if (const Kernel own = (kernels().*pass)(law, kind)) return {own, kind.oneClass};
-  return {(kernels_portable.*pass)(law, {false, true}), false};
+  const auto loopOf = kernels().*pass;
+  if (const Kernel own = loopOf(law, kind)) return {own, kind.oneClass};
+  return {loopOf(law, {.oneClass = false, .accounts = true}), false};
 }
 }  // namespace
 

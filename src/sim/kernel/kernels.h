@@ -72,7 +72,7 @@ using PairKernel = PairKernelIn<double>;
 /// Adds the forces of contacts with walls to the force rows; they stay in the stage.
 using WallKernel = void (*)(const PassContext&, const WallRange&, Stage&, Accounts&);
 
-/// The loops for one instruction set; nullptr where it has none of its own for a law and kind.
+/// The loops for one instruction set; nullptr where there is none for a law and kind (see `hasLoop` in passes.h).
 struct Kernels {
   std::string_view isa;
   PairKernel (*pairPass)(std::size_t law, PassKind kind);
@@ -88,7 +88,7 @@ struct Chosen {
   Kernel kernel;
   bool oneClass;
 };
-/// The loop to use. Laws that are not common have only one, portable and for several classes.
+/// The loop to use. Laws that are not common have only one, for several classes and with accounts.
 template <class Real>
 Chosen<PairKernelIn<Real>> pairKernel(std::size_t law, PassKind kind);
 Chosen<WallKernel> wallKernel(std::size_t law, PassKind kind);

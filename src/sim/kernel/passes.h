@@ -24,16 +24,16 @@ constexpr Real leastDivisor = single<Real> ? Real(1e-12) : tinyIn<Real>;
 
 /// Directions, overlaps and effective masses, over what they are made of. A loop of its own: with the law behind it in one loop the
 /// chain of dependent operations is longer than what a processor looks ahead, and it waits for each contact.
-template <class Law, class Real>
+template <class Shape, class Real>
 void findDirections(int count, StageIn<Real>& s) {
   TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) {
     const V3In<Real> d{s.dx[q], s.dy[q], s.dz[q]};
     const Real distance = norm(d), safeDistance = larger(distance, leastDivisor<Real>);
     // One division for all reciprocals: divisions and roots are what this loop waits for. Only arms want that of the sum of the radii.
-    const Real sum = Law::turns ? s.radiusSum[q] : 1, mass = s.inverseMassSum[q];
+    const Real sum = Shape::turns ? s.radiusSum[q] : 1, mass = s.inverseMassSum[q];
     Real reciprocal = 1;
-    if constexpr (Law::readsRadius) {
+    if constexpr (Shape::readsRadius) {
       const Real all = 1 / (safeDistance * sum * mass * s.inverseRadiusSum[q]);
       reciprocal = all * s.inverseRadiusSum[q];
       s.effectiveRadius[q] = all * (safeDistance * sum * mass);
@@ -46,7 +46,7 @@ void findDirections(int count, StageIn<Real>& s) {
       s.overlap[q] = s.gap[q] / (s.radiusSum[q] + distance);
     else
       s.overlap[q] = s.radiusSum[q] - distance;
-    if constexpr (Law::turns) {
+    if constexpr (Shape::turns) {
       const Real perRadiusSum = reciprocal * safeDistance * mass;
       s.perRadiusSum[q] = perRadiusSum;
       s.arm[q] = distance * perRadiusSum;
@@ -58,10 +58,10 @@ void findDirections(int count, StageIn<Real>& s) {
 }
 
 /// The direction of a contact. Where only the loop of the law asks for it, it is made there.
-template <class Law, class Real>
+template <class Shape, class Real>
 TSUBU_INLINE V3In<Real> directionAt(const StageIn<Real>& s, int q) {
   const V3In<Real> d{s.dx[q], s.dy[q], s.dz[q]};
-  if constexpr (Law::turns)
+  if constexpr (Shape::turns)
     return d;
   else
     return s.perDistance[q] * d;
@@ -106,7 +106,7 @@ void carryMemory(Real turning, int count, StageIn<Real>& s, Real* const (&column
 template <class Law, class Real>
 TSUBU_INLINE ContactIn<Real> contactAt(const StageIn<Real>& s, int q) {
   ContactIn<Real> c;
-  c.n = directionAt<Law>(s, q);
+  c.n = directionAt<ShapeOf<Law>>(s, q);
   c.overlap = s.overlap[q];
   c.separationSpeed = Law::turns ? s.separationSpeed[q] : dot(V3In<Real>{s.dvx[q], s.dvy[q], s.dvz[q]}, c.n);
   c.effectiveMass = s.effectiveMass[q];
@@ -172,16 +172,17 @@ struct Ahead {
   static constexpr int share = (chunkSize + shares - 1) / shares;
 };
 
-/// The law on every contact of the chunk. `memory` points to the columns of the contacts' memory.
+/// The law on every contact of the chunk. `memory` points to the columns of the contacts' memory; `asBefore`: the constants of the stage
+/// are those of these contacts already.
 template <class Law, bool oneClass, bool accounts, bool weighted, class Real>
-void compute(const PassContext& context, int count, StageIn<Real>& s, Real* const* memory, Ahead& ahead) {
+void compute(const PassContext& context, int count, StageIn<Real>& s, Real* const* memory, bool asBefore, Ahead& ahead) {
   typename Law::template PairIn<Real> only{};
   if constexpr (oneClass)
     only = onlyPair<Law, Real>(context.pairs);
-  else
-    gatherConstants<Law>(context, count, s);
+  else if (!asBefore)
+    gatherConstants<numbersIn<typename Law::Pair>>(context, count, s);
   ahead.ask<Real>();
-  findDirections<Law>(count, s);
+  findDirections<ShapeOf<Law>>(count, s);
   ahead.ask<Real>();
   if constexpr (Law::turns) findSlip<weighted>(count, s);
   ahead.ask<Real>();
@@ -238,18 +239,18 @@ void compute(const PassContext& context, int count, StageIn<Real>& s, Real* cons
 }
 
 /// Which kinds of accounts a law fills in.
-template <class Law>
+template <class Shape>
 constexpr bool books(Accounts::Kind kind) {
-  return kind == Accounts::rolling                                        ? Law::rolls
-         : kind == Accounts::tangential || kind == Accounts::friction ? Law::turns
+  return kind == Accounts::rolling                                        ? Shape::rolls
+         : kind == Accounts::tangential || kind == Accounts::friction ? Shape::turns
                                                                          : true;
 }
 
-template <class Law, class Real>
+template <class Shape, class Real>
 void addAccounts(int count, const StageIn<Real>& s, bool observed, Accounts& accounts) {
   const int whole = count & ~7;
   for (int kind = observed ? 0 : Accounts::normal; kind < Accounts::overlap; ++kind) {
-    if (!books<Law>(static_cast<Accounts::Kind>(kind))) continue;
+    if (!books<Shape>(static_cast<Accounts::Kind>(kind))) continue;
     const Real* const column = s.account[kind];
     double* const lane = accounts.lane[kind];
     for (int q = 0; q < whole; q += 8)
@@ -267,7 +268,7 @@ void addDeepest(int count, const StageIn<Real>& s, Accounts& accounts) {
 
 /// Pairs that touch at another distance than the sum of their radii: the sum is changed, and with it what the loop divides by it. The
 /// arms stay those of the grains: the spins go in scaled, and `restoreArms` scales the couple that comes out.
-template <class Law, class Real>
+template <class Shape, class Real>
 void touchSooner(const double* touch, int count, StageIn<Real>& s) {
   for (int q = 0; q < count; ++q) {
     if (touch[q] == 0) continue;
@@ -275,13 +276,13 @@ void touchSooner(const double* touch, int count, StageIn<Real>& s) {
     s.armScale[q] = scale;
     if constexpr (single<Real>) s.gap[q] += (sum - s.radiusSum[q]) * (sum + s.radiusSum[q]);
     s.radiusSum[q] = sum;
-    if constexpr (Law::turns) s.sx[q] *= scale, s.sy[q] *= scale, s.sz[q] *= scale;
+    if constexpr (Shape::turns) s.sx[q] *= scale, s.sy[q] *= scale, s.sz[q] *= scale;
   }
 }
 
-template <class Law, class Real>
+template <class Shape, class Real>
 void restoreArms(const double* touch, int count, StageIn<Real>& s) {
-  if constexpr (Law::turns) {
+  if constexpr (Shape::turns) {
     for (int q = 0; q < count; ++q)
       if (touch[q] != 0) s.qx[q] *= s.armScale[q], s.qy[q] *= s.armScale[q], s.qz[q] *= s.armScale[q];
   }
@@ -300,35 +301,30 @@ void passPairs(const PassContext& context, const PairRangeIn<Real>& range, Stage
     ahead.ask<Real>();
     Real* memory[mostMemory] = {};
     for (int c = 0; c < Law::stateSize; ++c) memory[c] = range.memory + first + static_cast<std::size_t>(c) * range.stride;
-    gather<Law, oneClass>(context, range.i + first, range.j + first, count, stage);
-    if (range.touch) touchSooner<Law>(range.touch + first, count, stage);
-    compute<Law, oneClass, accounts, false>(context, count, stage, memory, ahead);
+    gather<ShapeOf<Law>, oneClass>(context, range.i + first, range.j + first, count, stage);
+    if (range.touch) touchSooner<ShapeOf<Law>>(range.touch + first, count, stage);
+    compute<Law, oneClass, accounts, false>(context, count, stage, memory, first > 0 && context.materials == 1, ahead);
     ahead.ask<Real>();
-    if (range.touch) restoreArms<Law>(range.touch + first, count, stage);
-    if constexpr (accounts) addAccounts<Law>(count, stage, context.observed, sums);
+    if (range.touch) restoreArms<ShapeOf<Law>>(range.touch + first, count, stage);
+    if constexpr (accounts) addAccounts<ShapeOf<Law>>(count, stage, context.observed, sums);
     if (context.observed) addDeepest(count, stage, sums);
-    scatter<Law>(context, range.i + first, range.j + first, count, stage);
+    scatter<ShapeOf<Law>>(context, range.i + first, range.j + first, count, stage);
   }
 }
 
 template <class Law, bool oneClass, bool accounts>
 void passWalls(const PassContext& context, const WallRange& range, Stage& stage, Accounts& sums) {
-  const int count = range.count, whole = count & ~3;
-  std::int32_t grains[4];
-  WallContactRow rest[4];
-  for (int k = 0; k < 4; ++k) grains[k] = range.grain[whole + k < count ? whole + k : count - 1], rest[k] = range.rows[whole + k < count ? whole + k : count - 1];
-  for (int q = 0; q < whole; q += 4) gatherFourOfWalls<Law>(context, range.grain + q, range.rows + q, q, stage);
-  if (whole < count) gatherFourOfWalls<Law>(context, grains, rest, whole, stage);
-  fetchWallMemory<Law>(range, stage);
+  const int count = range.count;
+  gatherWalls<ShapeOf<Law>>(context, range, stage);
+  fetchWallMemory<Law::stateSize>(range, stage);
   double* memory[mostMemory];
   for (int c = 0; c < mostMemory; ++c) memory[c] = stage.memory[c];
   Ahead nobody{context};
-  compute<Law, oneClass, accounts, true>(context, count, stage, memory, nobody);
-  returnWallMemory<Law>(range, stage);
-  if constexpr (accounts) addAccounts<Law>(count, stage, context.observed, sums);
+  compute<Law, oneClass, accounts, true>(context, count, stage, memory, false, nobody);
+  returnWallMemory<Law::stateSize>(range, stage);
+  if constexpr (accounts) addAccounts<ShapeOf<Law>>(count, stage, context.observed, sums);
   if (context.observed) addDeepest(count, stage, sums);
-  for (int q = 0; q < whole; q += 4) scatterFourOfWalls<Law>(context, range.grain + q, 4, q, stage);
-  if (whole < count) scatterFourOfWalls<Law>(context, grains, count - whole, whole, stage);
+  scatterWalls<ShapeOf<Law>>(context, range, stage);
 }
 
 /// A loop for each law that has one: filled in by `Loop`, for each choice of classes and accounts.
@@ -343,8 +339,10 @@ Kernel loopFor(std::size_t law, PassKind kind, Loop) {
   return kind.accounts ? moreWith[law] : moreWithout[law];
 }
 
-template <class Law>
-inline constexpr bool hasOwnLoops = objection<Law>.empty() && Law::common;
+/// Common laws have a loop for each choice, to carry nothing that a scene does not ask for. The others have the one that serves every scene:
+/// that for several classes, with accounts.
+template <class Law, bool oneClass, bool accounts>
+inline constexpr bool hasLoop = objection<Law>.empty() && (Law::common || (!oneClass && accounts));
 
 }  // namespace
 }  // namespace tsubu::sim
