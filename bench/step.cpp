@@ -56,6 +56,7 @@ Model bed(const ContactChoice& contact) {
   model.gravity = {0, 0, -9.81};
   model.timeStep = 5e-6;
   model.watch.stop = false;
+  model.orientation = false;
   for (int i = 0; i < edge; ++i)
     for (int j = 0; j < edge; ++j)
       for (int k = 0; k < edge; ++k) {
@@ -135,6 +136,7 @@ std::vector<Row> rows() {
     }
   }
   const auto rub = [&](const std::string& feature, const auto& by) { change(feature, by, rubbing, friction()); };
+  rub("orientation of grains", [](Model& m) { m.orientation = true; });
   rub("rotation held", [](Model& m) { m.contact.rotation = false; });
   for (const Integrator integrator : {Integrator::velocityVerlet, Integrator::explicitEuler, Integrator::leapfrog, Integrator::centralDifferences,
                                       Integrator::rungeKutta})

@@ -80,6 +80,7 @@ std::vector<std::string> featuresOf(const sim::Model& model) {
     add(chosen != "none" && chosen != "linear", fmt::format("{}: {}", family.key, chosen));
   }
   add(model.contact.tangential != "none" && !model.contact.rotation, "rotation held");
+  add(sim::keepsOrientation(model), "orientation of grains");
   add(model.integrator != sim::Integrator::symplecticEuler, fmt::format("integrator: {}", sim::schemeOf(model.integrator).name));
   add(model.precision == sim::Precision::mixed, "mixed precision");
   add(model.ledger, "energy ledger");
