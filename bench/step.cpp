@@ -194,6 +194,19 @@ std::vector<Row> rows() {
   return all;
 }
 
+/// ns of all threads together, in steps after those that were timed: of each stage for a grain, and of the pass over pairs for a contact.
+void countStages(benchmark::State& state, Simulation& simulation, double contacts) {
+  constexpr int steps = 40;
+  const std::uint64_t before = simulation.grainSteps();
+  simulation.startProfile();
+  simulation.advance(steps);
+  const auto grainSteps = static_cast<double>(simulation.grainSteps() - before);
+  const Profile::Seconds seconds = simulation.profile();
+  for (std::size_t part = 0; part < seconds.size(); ++part)
+    if (seconds[part] > 0) state.counters["ns: " + std::string(nameOf(static_cast<ProfilePart>(part)))] = 1e9 * seconds[part] / grainSteps;
+  if (contacts > 0) state.counters["ns/contact"] = 1e9 * seconds[static_cast<std::size_t>(ProfilePart::pairs)] / (contacts * steps);
+}
+
 void step(benchmark::State& state, const Model& model, int threads, const std::string& isa) {
   useKernels(isa);
   constexpr int portion = 20;
@@ -212,6 +225,7 @@ void step(benchmark::State& state, const Model& model, int threads, const std::s
   state.counters["bytes/grain"] = static_cast<double>(plan.bytesPerGrain);
   state.counters["bytes/contact"] = static_cast<double>(plan.bytesPerContact);
   state.SetLabel(hash);
+  countStages(state, simulation, contacts);
 }
 
 void addAll() {

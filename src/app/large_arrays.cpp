@@ -26,7 +26,7 @@ void askForLargePages([[maybe_unused]] void* start, [[maybe_unused]] std::size_t
 
 }  // namespace
 
-// Rows are the only over-aligned arrays (sim/grain_rows.h).
+// Rows and columns of grains, contacts and bonds are the over-aligned arrays (sim/grain_rows.h, core/line_vector.h).
 void* operator new(std::size_t size, std::align_val_t alignment) {
   const bool large = size >= 2 * page;
   const std::size_t boundary = large ? page : static_cast<std::size_t>(alignment);

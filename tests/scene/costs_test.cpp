@@ -127,7 +127,7 @@ TEST(Costs, EveryFeatureHasBeenMeasured) {
     }
   for (const std::string& feature : featuresOf(build(readText(shortScene, "scene.toml")).model)) EXPECT_NE(costs.of(feature), nullptr) << feature;
   for (const char* feature : {"rotation held", "bonds", "drag", "global damping", "magnets", "heat conduction", "periodic domain", "mesh wall", "moving wall",
-                              "walls that move under load", "sizes of grains", "continuous collisions", "energy ledger"})
+                              "walls that move under load", "sizes of grains", "continuous collisions", "energy ledger", "orientation of grains", "mixed precision"})
     EXPECT_NE(costs.of(feature), nullptr) << feature;
   const FeatureCost *plain = costs.of("contacts, motion, lists"), *off = costs.of("everything off, said so");
   ASSERT_TRUE(plain && off);

@@ -28,8 +28,9 @@ namespace tsubu::sim {
 struct BondLimits {
   double softness, softnessPerLength;  ///< m³/N, m²/N: 1/k_n is the first, or the second times the length that the bond was made with
   double tension, compression;         ///< Pa
-  double shear, pressureSlope;         ///< of B9, over k_t/k_n
-  double stretch;                      ///< of B10
+  double shear;                        ///< Pa: τ_max k_n/k_t
+  double pressureSlope;                ///< tan φ k_n/k_t
+  double stretch;                      ///< r_max over the length
 };
 
 /// What all bonds of a kind have in common.
@@ -137,14 +138,16 @@ TSUBU_INLINE double bondLoad(const BondStrength& strength, const BondBody& body,
   return larger(larger((fibre - axial) / strength.tension, (fibre + axial) / strength.compression),
                 larger(shear / resistance, r / (body.length * strength.stretch)));
 }
-/// Is that less than 1? Without quotients and roots, which a loop over bonds would wait for.
+/// Is that less than 1? Without quotients and roots, which a loop over bonds would wait for: stresses over k_n, which of a circular section
+/// (J = 2 I, I = A r_b²/4) leave lengths alone.
+/// \param twist  θ·n
 TSUBU_INLINE bool bondHolds(const BondLimits& limits, const BondBody& body, const BondMemory& memory, double twist, double r) {
-  const double stretch = memory.rest - r, softness = limits.softness + limits.softnessPerLength * body.length;
-  const double bend = smaller(limits.tension * softness + stretch, limits.compression * softness - stretch);  // left for r_b θ_t
-  const double shear = limits.shear * softness + limits.pressureSlope * larger(stretch, 0) - body.radius * std::abs(twist);  // left for s
-  const double bent2 = (body.radius * body.radius) * (norm2(memory.turn) - twist * twist);
-  // Of a limit that is below zero already, the square says nothing.
-  const double over = larger(bent2 - bend * larger(bend, 0), norm2(memory.shear) - shear * larger(shear, 0));
+  const double pressed = memory.rest - r, softness = limits.softness + limits.softnessPerLength * body.length;
+  const double bendLeft = smaller(limits.tension * softness + pressed, limits.compression * softness - pressed);  // for r_b θ_t
+  const double shearLeft = limits.shear * softness + limits.pressureSlope * larger(pressed, 0) - body.radius * std::abs(twist);  // for s
+  // Not below zero where rounding is all that is left of it: of a limit that is below zero already, the square says nothing.
+  const double bent2 = (body.radius * body.radius) * larger(norm2(memory.turn) - twist * twist, 0);
+  const double over = larger(bent2 - bendLeft * larger(bendLeft, 0), norm2(memory.shear) - shearLeft * larger(shearLeft, 0));
   return larger(over, r - limits.stretch * body.length) < 0;
 }
 
@@ -253,21 +256,20 @@ TSUBU_INLINE BondStrain strainBefore(const BondKind& kind, const BondStrain& now
           BondRelaxation<damping>(kind, bending, dt).before(now.bend, by.bend)};
 }
 
-TSUBU_INLINE double signOf(double v) { return v > 0 ? 1.0 : (v < 0 ? -1.0 : 0.0); }
-
-/// The force `force + along n` and the moment `moment + twist n`: to scale a vector and set right with one number what lies along n costs
-/// less than to take it apart.
+/// The force `force + moreAlong n` and the moment `moment + moreTwist n`: to scale a vector and set right with one number what lies along n
+/// costs less than to take it apart.
 struct BondWrench {
-  double along;
+  double moreAlong;
   V3 force;
-  double twist;
+  double moreTwist;
   V3 moment;
 };
 TSUBU_INLINE BondWrench operator-(const BondWrench& a, const BondWrench& b) {
-  return {a.along - b.along, a.force - b.force, a.twist - b.twist, a.moment - b.moment};
+  return {a.moreAlong - b.moreAlong, a.force - b.force, a.moreTwist - b.moreTwist, a.moment - b.moment};
 }
 
 /// B2.
+/// \param twist  θ·n
 TSUBU_INLINE BondWrench wrenchOf(const BondSprings& k, const BondMemory& memory, double twist, double r) {
   return {k.along * (memory.rest - r), -k.across * memory.shear, (k.bend - k.twist) * twist, -k.bend * memory.turn};
 }
@@ -280,18 +282,27 @@ struct BondSlip {
   double twist;
 };
 
+/// B4: the force of a spring over the speed against which a share of it acts. What is but the rounding of the whole motion is no motion.
+TSUBU_INLINE double forceOverSpeed(double force2, double speed2, double whole2) {
+  return std::sqrt(force2 / larger(speed2, larger(1e-24 * whole2, tiny)));
+}
+
 /// B4, B6: what dampers hold back.
 template <BondDamping damping>
 TSUBU_INLINE BondWrench heldBack(const BondKind& kind, const BondBody& body, const BondStrain& strain, const BondSlip& slip, V3 n) {
   const double* const eta = kind.eta;
   if constexpr (damping == BondDamping::viscous) {
+    // The dashpot across acts on the whole velocity, that of bending on the whole spin.
     return {(eta[along] - eta[across]) * body.critical * slip.along, (eta[across] * body.critical) * slip.velocity,
             (eta[twisting] - eta[bending]) * body.bendCritical * slip.twist, (eta[bending] * body.bendCritical) * slip.spin};
   } else {
     const BondPull pull = pullOf(springsOf(body, kind.shearOverNormal), strain);
-    const auto share = [](V3 force, V3 v) { return std::sqrt(norm2(force) / larger(norm2(v), tiny)) * v; };
-    return {eta[along] * std::abs(pull.along) * signOf(slip.along), eta[across] * share(pull.across, slip.velocity - slip.along * n),
-            eta[twisting] * std::abs(pull.twist) * signOf(slip.twist), eta[bending] * share(pull.bend, slip.spin - slip.twist * n)};
+    const V3 vt = slip.velocity - slip.along * n, wt = slip.spin - slip.twist * n;
+    const double v2 = norm2(slip.velocity), w2 = norm2(slip.spin);
+    return {eta[along] * forceOverSpeed(pull.along * pull.along, slip.along * slip.along, v2) * slip.along,
+            (eta[across] * forceOverSpeed(norm2(pull.across), norm2(vt), v2)) * vt,
+            eta[twisting] * forceOverSpeed(pull.twist * pull.twist, slip.twist * slip.twist, w2) * slip.twist,
+            (eta[bending] * forceOverSpeed(norm2(pull.bend), norm2(wt), w2)) * wt};
   }
 }
 
@@ -309,12 +320,12 @@ TSUBU_INLINE BondForce pullBond(const BondKind& kind, const BondBody& body, cons
   if constexpr (damping == BondDamping::percent || damping == BondDamping::viscous) {
     const BondSlip slip{now.velocity + cross(lever, now.spinSum), dot(now.velocity, n), now.spin, dot(now.spin, n)};
     const BondWrench held = heldBack<damping>(kind, body, strainOf(memory, n, r), slip, n);
-    result.loss = dt * (held.along * slip.along + dot(held.force, slip.velocity) + held.twist * slip.twist + dot(held.moment, slip.spin));
+    result.loss = dt * (held.moreAlong * slip.along + dot(held.force, slip.velocity) + held.moreTwist * slip.twist + dot(held.moment, slip.spin));
     wrench = wrench - held;
   }
-  result.force = wrench.along * n + wrench.force;
+  result.force = wrench.moreAlong * n + wrench.force;
   result.couple = cross(lever, wrench.force);
-  result.moment = wrench.twist * n + wrench.moment;
+  result.moment = wrench.moreTwist * n + wrench.moment;
   return result;
 }
 

@@ -188,7 +188,7 @@ inline void addToLanes(const double* column, int count, double* lane) {
 
 /// Three columns of four bonds as rows.
 TSUBU_INLINE void toRows(const BondStage::Column* columns, int q, D4 (&rows)[4]) {
-  for (int c = 0; c < 3; ++c) rows[c] = load4(columns[c] + q);
+  rows[0] = load4(columns[0] + q), rows[1] = load4(columns[1] + q), rows[2] = load4(columns[2] + q);
   rows[3] = D4{};
   transpose4(rows[0], rows[1], rows[2], rows[3]);
 }

@@ -21,8 +21,8 @@ struct TangentialForceIn {
 using TangentialForce = TangentialForceIn<double>;
 
 // A tangential law says: does it `act`; does it `needGrowing` stiffness, that of a Hertz contact; is it `passive` (never gives more
-// energy than it got); does its force stay `withinLimit`, that of Coulomb; is it `common` enough for kernels of its own for every
-// instruction set.
+// energy than it got); does its force stay `withinLimit`, that of Coulomb; is it `common` enough for loops of its own without accounts,
+// for a single material and in single precision.
 
 /// No friction: no tangential force, no torque, no memory.
 struct Frictionless {

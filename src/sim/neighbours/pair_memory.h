@@ -25,7 +25,7 @@ class PairMemory {
   PairMemory() = default;
   explicit PairMemory(bool single) : single_(single) {}
 
-  /// Room for these pairs; all of it is to be written.
+  /// Room for these pairs, each column in whole cache lines; what is there for them is to be written, and what lies beyond never read for one.
   void fit(std::size_t pairs, std::size_t components) {
     stride_ = single_ ? wholeLines<float>(pairs) : wholeLines<double>(pairs);
     if (single_)
@@ -56,7 +56,7 @@ class PairMemory {
   const Real* columns() const {
     return const_cast<PairMemory*>(this)->columnsOf<Real>().data();
   }
-  /// The columns of doubles, one after the other.
+  /// The columns of doubles, one after the other, with what lies between them.
   LineVector<double>& wide() { return wide_; }
   const LineVector<double>& wide() const { return wide_; }
 

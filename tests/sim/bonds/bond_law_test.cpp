@@ -230,6 +230,45 @@ TEST(BondLaw, PercentHoldsAgainstTheMotion) {
   }
 }
 
+// B6: four dashpots, each against its own part of the motion, whichever way it goes.
+TEST(BondLaw, DashpotsHoldEachWayOfItsOwn) {
+  Led led;
+  led.bonding.damping = BondDamping::viscous;
+  led.bonding.dampingOf = {0.11, 0.23, 0.37, 0.05};
+  led.body = bodyOf(led.bonding, ri, led.d.norm(), {3.1e5, 4.7e11});
+  for (const double sign : {1.0, -1.0}) {
+    Led plain = led;
+    const double dt = 1e-9, r = led.d.norm();
+    const Vec3 v = sign * (0.3 * axis - 0.7 * side + 0.2 * up), wi = sign * (40 * axis + 25 * side - 90 * up), wj = sign * (-15 * axis + 60 * side + 10 * up);
+    Led damped = led;
+    damped.lead<BondDamping::viscous>(dt, v, wi, wj, 1);
+    plain.lead(dt, v, wi, wj, 1);
+    const Vec3 n = damped.d.normalized(), spin = wi - wj, slip = v + (r / (ri + rj)) * n.cross(ri * wi + rj * wj);
+    const Vec3 vt = slip - slip.dot(n) * n, wt = spin - spin.dot(n) * n;
+    const double normal = 2 * std::sqrt(led.bonding.stiffness * led.area() / 3.1e5), bend = 2 * std::sqrt(led.bonding.stiffness * led.inertia() / 4.7e11);
+    const double shear = normal * std::sqrt(2.0 / 7.0 / 2.4), twist = bend * std::sqrt(2 / 2.4);  // 2 √(k m) of what each moves
+    const Vec3 force = 0.11 * normal * v.dot(n) * n + 0.23 * shear * vt, moment = 0.37 * twist * spin.dot(n) * n + 0.05 * bend * wt;
+    EXPECT_LT((vec(plain.force.force) - vec(damped.force.force) - force).norm(), 1e-7 * force.norm());
+    EXPECT_LT((vec(plain.force.moment) - vec(damped.force.moment) - moment).norm(), 1e-7 * moment.norm());
+    EXPECT_NEAR(damped.loss, dt * (force.dot(slip) + moment.dot(spin)), 1e-7 * damped.loss);
+  }
+}
+
+// B4 where nothing moves: what rounding leaves across a bond that is pulled along itself is no motion, and holds nothing.
+TEST(BondLaw, PercentHoldsNothingAgainstRounding) {
+  Led led;
+  led.bonding.damping = BondDamping::percent;
+  led.bonding.dampingOf = {0, 0.2, 0, 0.2};
+  led.lead<BondDamping::percent>(1, 2e-7 * side, 2e-3 * side, Vec3::Zero());
+  Led plain = led;
+  const Vec3 n = led.d.normalized();
+  led.lead<BondDamping::percent>(1e-6, 1e-7 * n, 3e-3 * n, -2e-3 * n, 1);
+  plain.lead(1e-6, 1e-7 * n, 3e-3 * n, -2e-3 * n, 1);
+  const auto across = [&](V3 a) { return Vec3(vec(a) - vec(a).dot(n) * n); };
+  EXPECT_LT((across(led.force.force) - across(plain.force.force)).norm(), 0.02 * across(plain.force.force).norm());
+  EXPECT_LT((across(led.force.moment) - across(plain.force.moment)).norm(), 0.02 * across(plain.force.moment).norm());
+}
+
 // B5: held as it is, a bond forgets exponentially; what was stored is lost, no more and no less.
 TEST(BondLaw, ExponentialForgets) {
   Led led;
@@ -247,6 +286,24 @@ TEST(BondLaw, ExponentialForgets) {
   EXPECT_NEAR(left(led.force.force, loaded.force, across), std::exp(-1.5), 1e-5);
   EXPECT_NEAR(left(led.force.moment, loaded.moment, across), std::exp(-0.6), 1e-5);
   EXPECT_NEAR(work - led.loss, led.stored(), 1e-9 * work);
+}
+
+// A straight rod that is twisted and pulled beyond its strength breaks, though rounding leaves a little of the twist across it, of either sign.
+TEST(BondLaw, TwistedRodsBreakWhenPulled) {
+  Bonding bonding = someBonding();
+  bonding.strength = {2e6, 5e6, BondStrength::never, 0, BondStrength::never};
+  const BondKind kind = kindOf(bonding);
+  const BondBody body = bodyOf(bonding, ri, 2e-3, unitInertia);
+  for (int k = 0; k < 400; ++k) {
+    const Vec3 d = 2e-3 * Vec3(std::sin(k), std::cos(1.7 * k), 0.3 + std::sin(0.6 * k)).normalized();
+    const double r = d.norm();
+    const V3 n = (1 / r) * v3(d);
+    for (const double pulled : {1.01 * 2e6, 0.99 * 2e6, -1.01 * 5e6, -0.99 * 5e6}) {
+      const BondMemory memory{{0, 0, 0}, (0.3 + 0.01 * k) * n, r - pulled / bonding.stiffness};
+      const double limit = pulled > 0 ? 2e6 : 5e6;
+      EXPECT_EQ(bondHolds(kind.limits, body, memory, dot(memory.turn, n), r), std::abs(pulled) < limit) << k << ", " << pulled;
+    }
+  }
 }
 
 // B7–B10, with the stresses of Bond (13); in compression those of the far fibre.
