@@ -1,6 +1,6 @@
-// What a step costs, per grain-step, for each of the features that a scene may ask for. A bed of 14 000 grains on a slightly compressed lattice
-// with random velocities: every grain has its contacts, and they slide and roll. Times are for comparing lines with each other; a line
-// names the one that it is compared with. bench/costs.py makes the table of them that `tsubu explain` shows.
+// What a step costs, per grain-step, for each of the features that a scene may ask for. A bed of 14 000 grains on a slightly compressed
+// lattice with random velocities: every grain has its contacts, and they slide and roll. Times are for comparing lines with each other; a
+// line names the one that it is compared with. bench/costs.py makes the table of them that `tsubu explain` shows.
 
 #include <benchmark/benchmark.h>
 
@@ -81,7 +81,8 @@ std::shared_ptr<const Surface> meshFloor() {
   constexpr int cells = 20;
   const double side = spacing * (edge + 3), start = -spacing;
   for (int j = 0; j <= cells; ++j)
-    for (int i = 0; i <= cells; ++i) mesh.vertices.emplace_back(start + side * i / cells, start + side * j / cells, 1e-5 * ((i * 7 + j * 3) % 5));
+    for (int i = 0; i <= cells; ++i)
+      mesh.vertices.emplace_back(start + side * i / cells, start + side * j / cells, 1e-5 * ((i * 7 + j * 3) % 5));
   for (int j = 0; j < cells; ++j)
     for (int i = 0; i < cells; ++i) {
       const int a = j * (cells + 1) + i, b = a + 1, c = a + cells + 1, d = c + 1;
@@ -112,10 +113,13 @@ std::vector<Row> rows() {
   all.push_back({plain, "", bed(frictionless())});
   ContactChoice said = frictionless();
   said.tension = false, said.twisting = "none", said.rotation = true;
-  change("everything off, said so", [](Model& m) {
-    m.fields = {}, m.magnets.reset(), m.heat = false, m.continuous = false, m.ledger = false, m.contactForces = false, m.periodic = {};
-    m.bonds.clear(), m.streams.clear(), m.sinks.clear(), m.counters.clear();
-  }, plain, said);
+  change(
+      "everything off, said so",
+      [](Model& m) {
+        m.fields = {}, m.magnets.reset(), m.heat = false, m.continuous = false, m.ledger = false, m.contactForces = false, m.periodic = {};
+        m.bonds.clear(), m.streams.clear(), m.sinks.clear(), m.counters.clear();
+      },
+      plain, said);
   const auto works = [](const ContactChoice& contact) {
     try {
       lawIndex(contact);
@@ -138,8 +142,8 @@ std::vector<Row> rows() {
   const auto rub = [&](const std::string& feature, const auto& by) { change(feature, by, rubbing, friction()); };
   rub("orientation of grains", [](Model& m) { m.orientation = true; });
   rub("rotation held", [](Model& m) { m.contact.rotation = false; });
-  for (const Integrator integrator : {Integrator::velocityVerlet, Integrator::explicitEuler, Integrator::leapfrog, Integrator::centralDifferences,
-                                      Integrator::rungeKutta})
+  for (const Integrator integrator : {Integrator::velocityVerlet, Integrator::explicitEuler, Integrator::leapfrog,
+                                      Integrator::centralDifferences, Integrator::rungeKutta})
     rub("integrator: " + std::string(schemeOf(integrator).name), [integrator](Model& m) { m.integrator = integrator; });
   rub("energy ledger", [](Model& m) { m.ledger = true; });
   rub("bonds", [](Model& m) {
@@ -177,9 +181,7 @@ std::vector<Row> rows() {
     m.walls.resize(1);
   });
   rub("mesh wall", [](Model& m) { m.walls[0].surface = meshFloor(); });
-  rub("moving wall", [](Model& m) {
-    m.walls[0].motion = WallMotion({MotionPart{Oscillation{{0, 0, 1e-5}, 50, 0}, 0, 10}});
-  });
+  rub("moving wall", [](Model& m) { m.walls[0].motion = WallMotion({MotionPart{Oscillation{{0, 0, 1e-5}, 50, 0}, 0, 10}}); });
   rub("walls that move under load", [](Model& m) {
     m.walls[0].body.emplace();
     m.walls[0].body->mass = 1;
@@ -231,7 +233,9 @@ void step(benchmark::State& state, const Model& model, int threads, const std::s
 void addAll() {
   const auto add = [](const std::string& name, const Model& model, int threads, const std::string& isa) {
     const auto shared = std::make_shared<const Model>(model);
-    benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) { step(state, *shared, threads, isa); })->Unit(benchmark::kMillisecond)->UseRealTime();
+    benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) { step(state, *shared, threads, isa); })
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
   };
   const std::string widest(kernels().isa);
   // The name has the line that it is compared with: bench/costs.py takes the difference.

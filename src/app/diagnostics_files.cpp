@@ -27,7 +27,8 @@ std::string namesOf(const char* what, std::span<const int[2]> components) {
 }
 std::string numbers(const Mat3& tensor, std::span<const int[2]> components) {
   std::string text;
-  for (const auto& c : components) text += fmt::format(",{:.9g}", 0.5 * (tensor(c[0], c[1]) + (components.size() == 6 ? tensor(c[1], c[0]) : tensor(c[0], c[1]))));
+  for (const auto& c : components)
+    text += fmt::format(",{:.9g}", 0.5 * (tensor(c[0], c[1]) + (components.size() == 6 ? tensor(c[1], c[0]) : tensor(c[0], c[1]))));
   return text;
 }
 std::string numbers(const Vec3& v) { return fmt::format(",{:.9g},{:.9g},{:.9g}", v.x(), v.y(), v.z()); }
@@ -38,16 +39,17 @@ std::string regionsHeader() {
       "coordination_without_rattlers,rattlers";
   for (std::size_t k = 0; k <= sim::ContactSurvey::most; ++k)
     text += fmt::format(",grains_with_{}{}_contacts", k, k == sim::ContactSurvey::most ? "_or_more" : "");
-  text += ",mean_force_N,largest_force_N,share_above_mean,load_above_mean,bulk_velocity_x_m_per_s,bulk_velocity_y_m_per_s,"
-          "bulk_velocity_z_m_per_s,temperature_m2_per_s2,rotation_temperature_m2_per_s2,pressure_Pa";
+  text +=
+      ",mean_force_N,largest_force_N,share_above_mean,load_above_mean,bulk_velocity_x_m_per_s,bulk_velocity_y_m_per_s,"
+      "bulk_velocity_z_m_per_s,temperature_m2_per_s2,rotation_temperature_m2_per_s2,pressure_Pa";
   return text + namesOf("contact_stress", nine) + namesOf("kinetic_stress", six);
 }
 
 std::string regionRow(double time, const std::string& name, const sim::Survey& seen) {
   const sim::ContactSurvey& c = seen.contacts;
   const sim::MotionSurvey& m = seen.motion;
-  std::string text = fmt::format("{:.9g},{},{:.9g},{},{:.9g},{:.9g},{},{},{:.9g},{:.9g},{}", time, name, seen.stress.volume, m.grains, m.mass,
-                                 seen.solidFraction, c.betweenGrains, c.withWalls, c.coordination, c.withoutRattlers, c.rattlers);
+  std::string text = fmt::format("{:.9g},{},{:.9g},{},{:.9g},{:.9g},{},{},{:.9g},{:.9g},{}", time, name, seen.stress.volume, m.grains,
+                                 m.mass, seen.solidFraction, c.betweenGrains, c.withWalls, c.coordination, c.withoutRattlers, c.rattlers);
   for (const std::size_t grains : c.histogram) text += fmt::format(",{}", grains);
   text += fmt::format(",{:.9g},{:.9g},{:.9g},{:.9g}", c.meanForce, c.largestForce, c.shareAboveMean, c.loadAboveMean);
   text += numbers(m.bulkVelocity) + fmt::format(",{:.9g},{:.9g},{:.9g}", m.temperature, m.rotationTemperature, seen.stress.pressure());
@@ -111,7 +113,8 @@ void DiagnosticsFiles::add(sim::Simulation& simulation) {
     const std::vector<sim::WallSurvey> seen = sim::surveyWalls(instant, wallNames_.size());
     rows.clear();
     for (std::size_t w = 0; w < seen.size(); ++w)
-      rows += fmt::format("{:.9g},{},{}", instant.time, wallNames_[w], seen[w].contacts) + numbers(seen[w].force) + numbers(seen[w].torque) + "\n";
+      rows += fmt::format("{:.9g},{},{}", instant.time, wallNames_[w], seen[w].contacts) + numbers(seen[w].force) +
+              numbers(seen[w].torque) + "\n";
     walls_->add(rows);
   }
   if (grid_) grid_->add(gridRows(instant.time, *cells_, sim::survey(instant, *cells_)));

@@ -16,7 +16,8 @@ constexpr std::size_t mostWaiting = 4;  // snapshots; a bed of a million grains 
 
 bool isFrame(const std::filesystem::path& path) {
   const std::string stem = path.stem().string();
-  return path.extension() == ".png" && stem.size() == 6 && std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c); });
+  return path.extension() == ".png" && stem.size() == 6 &&
+         std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
 void clearFrames(const std::filesystem::path& folder) {

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t page = std::size_t{2} << 20;  // what x86-64 and most ARM systems have beside 4 KiB
 
-// Contacts read the rows of grains here and there, and with small pages a processor looks up where each of them lies: 6 % of a step of half a
-// million grains. Whole large pages only: of the last piece no more memory is taken than the array has.
+// Contacts read the rows of grains here and there, and with small pages a processor looks up where each of them lies: 6 % of a step of half
+// a million grains. Whole large pages only: of the last piece no more memory is taken than the array has.
 void askForLargePages([[maybe_unused]] void* start, [[maybe_unused]] std::size_t size) {
 #ifdef MADV_HUGEPAGE
   madvise(start, size & ~(page - 1), MADV_HUGEPAGE);

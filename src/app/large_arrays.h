@@ -3,8 +3,8 @@
 
 namespace tsubu::app {
 
-/// Gives what is freed back to the system; to be called before anything large is allocated. Large pages for what steps read need no call: rows
-/// and columns are aligned, and the `operator new` of aligned types is replaced by ours.
+/// Gives what is freed back to the system; to be called before anything large is allocated. Large pages for what steps read need no call:
+/// rows and columns are aligned, and the `operator new` of aligned types is replaced by ours.
 void returnLargeArrays();
 
 }  // namespace tsubu::app

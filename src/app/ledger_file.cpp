@@ -24,14 +24,38 @@ constexpr const char* columns =
     "angular_momentum_rest_x,angular_momentum_rest_y,angular_momentum_rest_z";
 
 std::string energies(const sim::Ledger& l) {
-  const double values[] = {l.kineticBulk, l.kineticFluctuation, l.kineticRotation, l.kineticWalls,
-                           l.gravitational, l.elasticNormal, l.elasticTangential,
-                           l.elasticRolling, l.elasticBonds, l.potentialFields, l.dissipatedNormal, l.dissipatedTangential,
-                           l.dissipatedFriction, l.dissipatedRolling, l.dissipatedBonds, l.dissipatedBreakage, l.dissipatedDrag,
-                           l.workWalls, l.workFields, l.inserted, l.removed, l.residual(), l.residualFraction(),
-                           l.momentum.x(), l.momentum.y(), l.momentum.z(),
-                           l.angularMomentumBulk.x(), l.angularMomentumBulk.y(), l.angularMomentumBulk.z(),
-                           l.angularMomentumRest.x(), l.angularMomentumRest.y(), l.angularMomentumRest.z()};
+  const double values[] = {l.kineticBulk,
+                           l.kineticFluctuation,
+                           l.kineticRotation,
+                           l.kineticWalls,
+                           l.gravitational,
+                           l.elasticNormal,
+                           l.elasticTangential,
+                           l.elasticRolling,
+                           l.elasticBonds,
+                           l.potentialFields,
+                           l.dissipatedNormal,
+                           l.dissipatedTangential,
+                           l.dissipatedFriction,
+                           l.dissipatedRolling,
+                           l.dissipatedBonds,
+                           l.dissipatedBreakage,
+                           l.dissipatedDrag,
+                           l.workWalls,
+                           l.workFields,
+                           l.inserted,
+                           l.removed,
+                           l.residual(),
+                           l.residualFraction(),
+                           l.momentum.x(),
+                           l.momentum.y(),
+                           l.momentum.z(),
+                           l.angularMomentumBulk.x(),
+                           l.angularMomentumBulk.y(),
+                           l.angularMomentumBulk.z(),
+                           l.angularMomentumRest.x(),
+                           l.angularMomentumRest.y(),
+                           l.angularMomentumRest.z()};
   std::string text;
   for (const double value : values) text += fmt::format(",{:.9g}", value);
   return text;
@@ -39,14 +63,18 @@ std::string energies(const sim::Ledger& l) {
 
 std::string noEnergies() {
   std::string text;
-  for (char c : energies({})) if (c == ',') text += c;
+  for (char c : energies({}))
+    if (c == ',') text += c;
   return text;
 }
 
 }  // namespace
 
 LedgerFile::LedgerFile(const std::filesystem::path& path, const LedgerColumns& asked)
-    : file_(std::fopen(path.c_str(), "w")), path_(path.string()), heat_(asked.heat), bonds_(asked.bonds),
+    : file_(std::fopen(path.c_str(), "w")),
+      path_(path.string()),
+      heat_(asked.heat),
+      bonds_(asked.bonds),
       crossed_(asked.counters.size(), 0) {
   if (!file_) throw Error(ErrorKind::files, fmt::format("Cannot write '{}': {}.", path_, std::strerror(errno)));
   std::string header = columns;

@@ -28,7 +28,8 @@ class LedgerFile {
 
   /// Appends the row of the present instant, complete on disk when this returns. Without a ledger in the scene its columns stay empty.
   void add(sim::Simulation& simulation, bool ledger);
-  /// The largest |residual| of any row, over the turnover of the run so far: over its own turnover that of the first touch says nothing (E6).
+  /// The largest |residual| of any row, over the turnover of the run so far: over its own turnover that of the first touch says nothing
+  /// (E6).
   double worstResidual() const { return turnover_ > 0 ? largestResidual_ / turnover_ : 0; }
 
  private:

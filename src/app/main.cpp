@@ -5,8 +5,8 @@
 #include <new>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "app/chosen_setting.h"
 #include "app/large_arrays.h"
@@ -44,7 +44,10 @@ void addSceneOptions(CLI::App& command, std::string& scene, scene::Overrides& ov
 void addTradeoffOptions(CLI::App& command, TradeoffOptions& options) {
   addSceneOptions(command, options.scene, options.overrides);
   command.add_option("-o,--output", options.folder, "Folder for the study (out/NAME.tradeoff when not given)")->type_name("DIR");
-  command.add_option("--axes", options.axes, "What to turn: step, stiffness, integrator, grains, law, memory, rolling, precision, skin (all when not given), and picture")
+  command
+      .add_option(
+          "--axes", options.axes,
+          "What to turn: step, stiffness, integrator, grains, law, memory, rolling, precision, skin (all when not given), and picture")
       ->delimiter(',');
   command.add_flag("--features", options.features, "Switch features off instead: which of them does the scene notice?");
   command.add_option("--budget", options.budget, "Time for all trials: 90s, 10m, 1h (10m when not given)");
@@ -66,14 +69,19 @@ Commands describe(CLI::App& app, RunOptions& options, TradeoffOptions& study) {
   for (CLI::App* command : {commands.run, commands.explain, commands.check}) addSceneOptions(*command, options.scene, options.overrides);
   addTradeoffOptions(*commands.tradeoff, study);
   addSceneOptions(*commands.stability, options.scene, options.overrides);
-  commands.stability->add_option("--at", options.until, "Try the state that the scene has at this time, in seconds (its end when not given)")->check(CLI::NonNegativeNumber);
+  commands.stability
+      ->add_option("--at", options.until, "Try the state that the scene has at this time, in seconds (its end when not given)")
+      ->check(CLI::NonNegativeNumber);
   for (CLI::App* command : {commands.run, commands.explain}) {
-    command->add_option("--accuracy", options.accuracy, "The cheapest setting that the study of the scene has found to be within this: 2% (see tradeoff)");
+    command->add_option("--accuracy", options.accuracy,
+                        "The cheapest setting that the study of the scene has found to be within this: 2% (see tradeoff)");
     command->add_option("--quality", options.quality, "draft, standard or reference: a setting of the study of the scene");
     command->add_option("--study", options.study, "Folder of the study (out/NAME.tradeoff when not given)")->type_name("DIR");
   }
   commands.run->add_option("-o,--output", options.folder, "Folder for the results (out/NAME when not given)")->type_name("DIR");
-  commands.run->add_option("--threads", options.threads, "Threads of the simulation; the results do not depend on it (as many of the cores as help when not given)")
+  commands.run
+      ->add_option("--threads", options.threads,
+                   "Threads of the simulation; the results do not depend on it (as many of the cores as help when not given)")
       ->check(CLI::Range(1, 1024));
   commands.run->add_option("--until", options.until, "End at this time instead of the scene's, in seconds")->check(CLI::NonNegativeNumber);
   commands.run->add_flag("!--no-frames", options.frames, "Simulate only");

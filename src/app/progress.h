@@ -7,9 +7,9 @@
 namespace tsubu::app {
 
 struct Progress {
-  double time = 0, end = 0;        ///< s, simulated
+  double time = 0, end = 0;  ///< s, simulated
   std::size_t frame = 0, frames = 0;
-  double grainSteps = 0;           ///< so far
+  double grainSteps = 0;  ///< so far
 };
 
 class ProgressLine {

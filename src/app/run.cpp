@@ -227,7 +227,8 @@ void Run::summarise() const {
       fmt::print("  {:<24}{:>8.2f}{:>8.1f}{:>22.2f}\n", part, seconds, 100 * seconds / std::max(all, 1e-9),
                  1e9 * seconds / std::max<double>(1, static_cast<double>(r.grainSteps)));
   }
-  fmt::print("{}\n{}: {} frames, ledger.csv, {}run.json\n", text, folder_.string(), r.frames, diagnostics_ ? diagnostics_->names() + ", " : "");
+  fmt::print("{}\n{}: {} frames, ledger.csv, {}run.json\n", text, folder_.string(), r.frames,
+             diagnostics_ ? diagnostics_->names() + ", " : "");
 }
 
 }  // namespace

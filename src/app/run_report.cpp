@@ -31,7 +31,8 @@ void writeReport(const std::filesystem::path& path, const RunReport& r) {
       json["dt_spectral"].update({{"least_limit", r.pace->limit().step}, {"at", r.pace->limit().time}, {"by", r.pace->limit().by}});
   }
   if (std::isfinite(r.singleContact.undamped))
-    json["dt_of_single_contact_rules"] = {{"note", r.singleContact.note}, {"undamped", r.singleContact.undamped}, {"duration", r.singleContact.duration}};
+    json["dt_of_single_contact_rules"] = {
+        {"note", r.singleContact.note}, {"undamped", r.singleContact.undamped}, {"duration", r.singleContact.duration}};
   json["steps"] = r.steps;
   json["simulated_time"] = r.simulatedTime;
   json["wall_time"] = r.wallTime;
@@ -56,7 +57,8 @@ void writeReport(const std::filesystem::path& path, const RunReport& r) {
     json["energy_residual"] = nullptr;
   }
   for (const study::Measured& measured : r.observables) {
-    json["observables"][measured.name]["value"] = std::isfinite(measured.value) ? nlohmann::ordered_json(measured.value) : nlohmann::ordered_json(nullptr);
+    json["observables"][measured.name]["value"] =
+        std::isfinite(measured.value) ? nlohmann::ordered_json(measured.value) : nlohmann::ordered_json(nullptr);
     if (!measured.unit.empty()) json["observables"][measured.name]["unit"] = measured.unit;
   }
   json["state_hash"] = r.stateHash;

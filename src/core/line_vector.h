@@ -16,8 +16,8 @@ struct LineAllocator {
   LineAllocator() = default;
   template <class Other>
   explicit(false) LineAllocator(const LineAllocator<Other>&) {}
-  T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), std::align_val_t{cacheLine})); }
-  void deallocate(T* start, std::size_t) { ::operator delete(start, std::align_val_t{cacheLine}); }
+  T* allocate(std::size_t count) { return static_cast<T*>(::operator new (count * sizeof(T), std::align_val_t{cacheLine})); }
+  void deallocate(T* start, std::size_t) { ::operator delete (start, std::align_val_t{cacheLine}); }
   bool operator==(const LineAllocator&) const { return true; }
 };
 

@@ -12,8 +12,7 @@ namespace tsubu {
 /// The stream of numbers that belongs to (seed, what, index). Two streams with different keys are independent.
 class Random {
  public:
-  Random(std::uint64_t seed, std::uint64_t what, std::uint64_t index = 0)
-      : key_(mix64(seed ^ mix64(what ^ mix64(index)))) {}
+  Random(std::uint64_t seed, std::uint64_t what, std::uint64_t index = 0) : key_(mix64(seed ^ mix64(what ^ mix64(index)))) {}
 
   std::uint64_t bits() { return mix64(key_ + 0x9e3779b97f4a7c15ULL * ++count_); }
   /// Uniform in [0, 1).

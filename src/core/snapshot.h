@@ -12,10 +12,10 @@ namespace tsubu {
 
 /// A bond between two grains, or between a grain and a wall.
 struct SeenBond {
-  Vec3 first, second;      ///< m: its ends (of a broken one: when it broke)
-  double radius = 0;       ///< m
-  double load = 0;         ///< stress over strength; 0 when it cannot break
-  double sinceBroken = -1; ///< s; negative: it holds
+  Vec3 first, second;       ///< m: its ends (of a broken one: when it broke)
+  double radius = 0;        ///< m
+  double load = 0;          ///< stress over strength; 0 when it cannot break
+  double sinceBroken = -1;  ///< s; negative: it holds
 };
 
 /// The normal force of a contact: between the centres of two grains, or from a grain's to where it touches a wall.
@@ -28,20 +28,20 @@ struct Snapshot {
   double time = 0;         ///< s
   std::uint64_t step = 0;  ///< steps taken so far
 
-  std::vector<std::uint32_t> id;         ///< permanent: never given twice
-  std::vector<std::uint16_t> material;   ///< index into the scene's materials
-  std::vector<double> radius;            ///< m
-  std::vector<Vec3> position;            ///< m
-  std::vector<Vec3> velocity;            ///< m/s
-  std::vector<Vec3> angularVelocity;     ///< rad/s; empty when rotation is not modelled
-  std::vector<Quat> orientation;         ///< empty when nobody asked for it, or nothing turns
-  std::vector<double> temperature;       ///< K; empty when heat is not modelled
-  std::vector<double> load;              ///< N: sum of the normal contact forces on the grain; empty unless asked for
+  std::vector<std::uint32_t> id;        ///< permanent: never given twice
+  std::vector<std::uint16_t> material;  ///< index into the scene's materials
+  std::vector<double> radius;           ///< m
+  std::vector<Vec3> position;           ///< m
+  std::vector<Vec3> velocity;           ///< m/s
+  std::vector<Vec3> angularVelocity;    ///< rad/s; empty when rotation is not modelled
+  std::vector<Quat> orientation;        ///< empty when nobody asked for it, or nothing turns
+  std::vector<double> temperature;      ///< K; empty when heat is not modelled
+  std::vector<double> load;             ///< N: sum of the normal contact forces on the grain; empty unless asked for
 
-  std::vector<SeenBond> bonds;           ///< empty unless asked for
-  std::vector<SeenForce> forces;         ///< of all contacts; empty unless asked for
+  std::vector<SeenBond> bonds;    ///< empty unless asked for
+  std::vector<SeenForce> forces;  ///< of all contacts; empty unless asked for
 
-  std::vector<Pose> walls;               ///< one per visible wall, in the order of the scene
+  std::vector<Pose> walls;  ///< one per visible wall, in the order of the scene
 
   std::size_t grains() const { return position.size(); }
 };

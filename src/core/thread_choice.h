@@ -6,8 +6,8 @@
 namespace tsubu {
 
 /// How many threads do the same work fastest, found out while it is done: for results that do not depend on it, it may change at any time.
-/// Now and then some steps are timed with as many threads as before, and as many with half or twice of them; medians decide, and only a clear
-/// gain counts. As long as nothing is gained, that happens ever more rarely.
+/// Now and then some steps are timed with as many threads as before, and as many with half or twice of them; medians decide, and only a
+/// clear gain counts. As long as nothing is gained, that happens ever more rarely.
 class ThreadChoice {
  public:
   /// \param most  threads that there are, ≥ 1

@@ -12,10 +12,10 @@
 
 namespace tsubu {
 
-/// Runs numbered tasks on a fixed number of threads, the caller among them. A thread has a share of the numbers, the same in every run of as
-/// many tasks: what its tasks work on stays in the caches of its core, and to move it to those of another one costs more than most tasks.
-/// Only a thread that has nothing left takes what is left of others. So which thread does what is left to chance, and a task must write only
-/// what is its own; then the results do not depend on the number of threads.
+/// Runs numbered tasks on a fixed number of threads, the caller among them. A thread has a share of the numbers, the same in every run of
+/// as many tasks: what its tasks work on stays in the caches of its core, and to move it to those of another one costs more than most
+/// tasks. Only a thread that has nothing left takes what is left of others. So which thread does what is left to chance, and a task must
+/// write only what is its own; then the results do not depend on the number of threads.
 class ThreadTeam {
  public:
   explicit ThreadTeam(int threads);

@@ -42,9 +42,22 @@ std::optional<std::uint64_t> toCount(std::string_view word) {
 
 /// Bytes of a PLY type; 0 for an unknown one.
 std::size_t sizeOf(std::string_view type) {
-  constexpr std::array<std::pair<std::string_view, std::size_t>, 16> sizes{
-      {{"char", 1}, {"uchar", 1}, {"int8", 1}, {"uint8", 1}, {"short", 2}, {"ushort", 2}, {"int16", 2}, {"uint16", 2}, {"int", 4}, {"uint", 4},
-       {"int32", 4}, {"uint32", 4}, {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}}};
+  constexpr std::array<std::pair<std::string_view, std::size_t>, 16> sizes{{{"char", 1},
+                                                                            {"uchar", 1},
+                                                                            {"int8", 1},
+                                                                            {"uint8", 1},
+                                                                            {"short", 2},
+                                                                            {"ushort", 2},
+                                                                            {"int16", 2},
+                                                                            {"uint16", 2},
+                                                                            {"int", 4},
+                                                                            {"uint", 4},
+                                                                            {"int32", 4},
+                                                                            {"uint32", 4},
+                                                                            {"float", 4},
+                                                                            {"float32", 4},
+                                                                            {"double", 8},
+                                                                            {"float64", 8}}};
   for (const auto& [name, size] : sizes)
     if (name == type) return size;
   return 0;

@@ -11,8 +11,8 @@
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-#include <assimp/Importer.hpp>
 #include <fmt/format.h>
+#include <assimp/Importer.hpp>
 
 #include "core/error.h"
 #include "io/mesh_complete.h"

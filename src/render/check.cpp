@@ -82,8 +82,8 @@ void checkStyle(const Style& style) {
   complaints.range("picture's width", style.picture.width, 16, 8192);
   complaints.range("picture's height", style.picture.height, 16, 8192);
   const int samples = samplesAlongSide(style.picture.quality) * std::max(style.picture.width, style.picture.height);
-  complaints.require(samples <= mostSamples, fmt::format("The picture needs {} samples along a side at this quality, but the most is {}.",
-                                                         samples, mostSamples));
+  complaints.require(samples <= mostSamples,
+                     fmt::format("The picture needs {} samples along a side at this quality, but the most is {}.", samples, mostSamples));
   complaints.direction("direction of the light", style.light.from);
   complaints.range("strength of the sun", style.light.sun, 0, 4);
   complaints.range("strength of the sky", style.light.sky, 0, 4);

@@ -68,10 +68,14 @@ constexpr std::array<Node, 10> vikNodes{node(0, 9, 0x001261), node(1, 9, 0x033e7
 
 std::span<const Node> nodesOf(ColourMap map) {
   switch (map) {
-    case ColourMap::cividis: return cividisNodes;
-    case ColourMap::batlow: return batlowNodes;
-    case ColourMap::vik: return vikNodes;
-    case ColourMap::viridis: break;
+    case ColourMap::cividis:
+      return cividisNodes;
+    case ColourMap::batlow:
+      return batlowNodes;
+    case ColourMap::vik:
+      return vikNodes;
+    case ColourMap::viridis:
+      break;
   }
   return viridisNodes;
 }

@@ -8,9 +8,9 @@ namespace tsubu::render {
 
 /// A grain on a raster, in cells of the raster. Depths grow away from the eye, in any monotonic measure.
 struct Splat {
-  float x, y, inner;                 ///< a disc that the grain covers wholly, nowhere deeper than `back`
-  float outerX, outerY, outer;       ///< a disc outside which nothing of the grain is seen
-  float front, back;                 ///< `front`: nothing of the grain is nearer
+  float x, y, inner;            ///< a disc that the grain covers wholly, nowhere deeper than `back`
+  float outerX, outerY, outer;  ///< a disc outside which nothing of the grain is seen
+  float front, back;            ///< `front`: nothing of the grain is nearer
 };
 
 /// The numbers of the splats that are not surely hidden behind others, from front to back. Conservative: a splat is left out only when

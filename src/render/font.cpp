@@ -10,10 +10,10 @@ namespace tsubu::render {
 
 namespace {
 
-constexpr double capUnits = 10;   // height of a capital in units of the glyphs
-constexpr double baseLine = 3;    // y of the base line in the glyphs
-constexpr double gap = 2.7;       // between letters, in units
-constexpr double penUnits = 1.3;  // width of the pen
+constexpr double capUnits = 10;    // height of a capital in units of the glyphs
+constexpr double baseLine = 3;     // y of the base line in the glyphs
+constexpr double gap = 2.7;        // between letters, in units
+constexpr double penUnits = 1.3;   // width of the pen
 constexpr double dotUnits = 0.35;  // by which dots are rounder than the pen
 
 using Point = Eigen::Vector2d;

@@ -43,8 +43,8 @@ Box boundsOf(const Snapshot& snapshot, const std::vector<std::uint32_t>& drawabl
 
 Pose poseOf(const std::vector<Pose>& poses, std::size_t k) { return k < poses.size() ? poses[k] : Pose(); }
 
-Frame makeFrame(const Snapshot& snapshot, const Style& style, const std::vector<Wall>& walls, const Box& bounds, int side,
-                int shadowSize, const FirstLooks& looks) {
+Frame makeFrame(const Snapshot& snapshot, const Style& style, const std::vector<Wall>& walls, const Box& bounds, int side, int shadowSize,
+                const FirstLooks& looks) {
   const int width = style.picture.width * side, height = style.picture.height * side;
   const std::vector<std::uint32_t> drawable = drawableGrains(snapshot);
   Frame frame;

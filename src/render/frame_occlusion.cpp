@@ -11,10 +11,10 @@ namespace tsubu::render {
 
 namespace {
 
-constexpr std::size_t mostNeighbours = 24;    // of those that hide most
-constexpr double wallSphere = 3;              // radius of the sphere that stands for a wall, in radii of the grain
-constexpr double wallReach = 1.2;             // a wall counts up to this gap, in radii of the grain
-constexpr double surroundings = 3;            // a grain darkens walls up to this distance from its centre, in radii
+constexpr std::size_t mostNeighbours = 24;  // of those that hide most
+constexpr double wallSphere = 3;            // radius of the sphere that stands for a wall, in radii of the grain
+constexpr double wallReach = 1.2;           // a wall counts up to this gap, in radii of the grain
+constexpr double surroundings = 3;          // a grain darkens walls up to this distance from its centre, in radii
 
 double smoothstep(double from, double to, double v) {
   const double t = std::clamp((v - from) / (to - from), 0.0, 1.0);
@@ -54,9 +54,8 @@ class Occlusion {
     std::sort(nearest_.begin(), nearest_.end(), [](const Vec3& a, const Vec3& b) { return a.squaredNorm() < b.squaredNorm(); });
     std::size_t kept = 0;
     for (const Vec3& offset : nearest_) {
-      const bool known = std::any_of(nearest_.begin(), nearest_.begin() + static_cast<std::ptrdiff_t>(kept), [&](const Vec3& other) {
-        return offset.dot(other) > 0.7 * offset.norm() * other.norm();
-      });
+      const bool known = std::any_of(nearest_.begin(), nearest_.begin() + static_cast<std::ptrdiff_t>(kept),
+                                     [&](const Vec3& other) { return offset.dot(other) > 0.7 * offset.norm() * other.norm(); });
       if (!known && offset.norm() > 0.1 * radius) nearest_[kept++] = offset;
     }
     nearest_.resize(kept);

@@ -15,8 +15,7 @@ namespace {
 
 void require(bool present, std::string_view what, std::string_view why) {
   if (present) return;
-  throw Error(ErrorKind::scene, fmt::format("The grains cannot be coloured by {}: {}.", what, why),
-              "choose another colouring");
+  throw Error(ErrorKind::scene, fmt::format("The grains cannot be coloured by {}: {}.", what, why), "choose another colouring");
 }
 
 std::vector<double> valuesOf(const Grains& style, const Snapshot& snapshot) {
@@ -68,8 +67,12 @@ Legend legendOf(const Grains& style, const std::vector<double>& values) {
     case ColourBy::force:
       legend.quantity = "force", legend.unit = size < 1 ? "mN" : "N", legend.scale = size < 1 ? 1e-3 : 1;
       break;
-    case ColourBy::temperature: legend.quantity = "temperature", legend.unit.assign(1, 'K'); break;  // g++ 12 mistakes = "K"
-    default: legend.quantity = "angular velocity", legend.unit = "rad/s"; break;
+    case ColourBy::temperature:
+      legend.quantity = "temperature", legend.unit.assign(1, 'K');
+      break;  // g++ 12 mistakes = "K"
+    default:
+      legend.quantity = "angular velocity", legend.unit = "rad/s";
+      break;
   }
   return legend;
 }

@@ -39,8 +39,8 @@ std::vector<std::uint32_t> drawableGrains(const Snapshot& snapshot) {
   return drawable;
 }
 
-std::vector<SeenGrain> seenGrains(const Snapshot& snapshot, const std::vector<std::uint32_t>& drawable, const View& view,
-                                  double nearPlane, int width, int height) {
+std::vector<SeenGrain> seenGrains(const Snapshot& snapshot, const std::vector<std::uint32_t>& drawable, const View& view, double nearPlane,
+                                  int width, int height) {
   std::vector<SeenGrain> candidates;
   std::vector<double> onScreen;
   for (const std::uint32_t k : drawable) {

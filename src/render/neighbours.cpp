@@ -50,8 +50,7 @@ void NeighbourGrid::fill(Level& level, const std::vector<std::uint32_t>& members
   for (std::size_t m = 0; m < members.size(); ++m) level.entries[next[hashes[m]]++] = unsorted[m];
 }
 
-void NeighbourGrid::compare(const Entry& entry, const Vec3& centre, double radius, std::uint32_t self,
-                            std::vector<Occluder>& found) const {
+void NeighbourGrid::compare(const Entry& entry, const Vec3& centre, double radius, std::uint32_t self, std::vector<Occluder>& found) const {
   if (entry.grain == self) return;
   const Vec3 offset = centres_[entry.grain] - centre;
   const double within = radius + 2 * radii_[entry.grain];

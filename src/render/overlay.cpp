@@ -81,7 +81,8 @@ void drawLegend(Image& image, const Legend& legend, const Pen& pen, const Layout
     ticks = roundTicks(low, high, most);
     if (ticks.size() < 2) break;
     step = ticks[1] - ticks[0];
-    const double widest = std::max(textWidth(tickText(ticks.front(), step), layout.small), textWidth(tickText(ticks.back(), step), layout.small));
+    const double widest =
+        std::max(textWidth(tickText(ticks.front(), step), layout.small), textWidth(tickText(ticks.back(), step), layout.small));
     if (widest + 0.5 * layout.small < step / (high - low) * bar.width) break;
   }
   const int notch = std::max(2, bar.height / 3);

@@ -17,8 +17,8 @@ int shadowTexels(const Picture& picture) {
   return picture.height <= 240 ? std::min(wanted, 1024) : wanted;
 }
 
-constexpr int coarseSize = 256;         // texels along the side of the map that finds penumbras
-constexpr double widestPenumbra = 20;   // texels of the fine map: `widest` of shadow.glsl
+constexpr int coarseSize = 256;        // texels along the side of the map that finds penumbras
+constexpr double widestPenumbra = 20;  // texels of the fine map: `widest` of shadow.glsl
 
 Program resolver(const GlFunctions& gl, int side, int shows) {
   return Program(gl, "screen.vert", "resolve.frag", {fmt::format("SIDE {}", side), fmt::format("SHOWS {}", shows)});
@@ -44,7 +44,14 @@ Painter::Painter(const Style& style, const std::vector<WallLook>& looks, int sid
       shadowWallProgram_(gl_, "shadow_wall.vert", "shadow_wall.frag"),
       classifyProgram_(gl_, "screen.vert", "classify.frag", {fmt::format("SIDE {}", side)}),
       resolvePrograms_{resolver(gl_, side, 0), resolver(gl_, side, 1), resolver(gl_, side, 2)},
-      grains_(gl_), neighbours_(gl_), surroundings_(gl_), walls_(gl_), sheets_(gl_), sunDiscs_(gl_), sunWalls_(gl_), looks_(gl_),
+      grains_(gl_),
+      neighbours_(gl_),
+      surroundings_(gl_),
+      walls_(gl_),
+      sheets_(gl_),
+      sunDiscs_(gl_),
+      sunWalls_(gl_),
+      looks_(gl_),
       names_(gl_, GL_R32UI, width_, height_),
       depths_(gl_, GL_DEPTH_COMPONENT32F, width_, height_),
       wallShares_(gl_, GL_R8, style.picture.width, style.picture.height),

@@ -44,8 +44,8 @@ class Renderer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Lets so many threads help those that draw, in the whole program; to be called before there is a Renderer. llvmpipe would take as many as there
-/// are cores, and a simulation waits for whichever of its threads they push aside. The environment's LP_NUM_THREADS has precedence.
+/// Lets so many threads help those that draw, in the whole program; to be called before there is a Renderer. llvmpipe would take as many as
+/// there are cores, and a simulation waits for whichever of its threads they push aside. The environment's LP_NUM_THREADS has precedence.
 void setDrawingHelpers(int threads);
 
 }  // namespace tsubu::render

@@ -31,9 +31,12 @@ std::optional<Colour> parseColour(std::string_view text) {
 
 int samplesAlongSide(Quality quality) {
   switch (quality) {
-    case Quality::draft: return 1;
-    case Quality::fine: return 3;
-    case Quality::normal: break;
+    case Quality::draft:
+      return 1;
+    case Quality::fine:
+      return 3;
+    case Quality::normal:
+      break;
   }
   return 2;
 }

@@ -108,8 +108,8 @@ struct OrbitCamera {
   Vec3 target = Vec3::Zero(), up{0, 0, 1};
   double distance = 1;
   double elevation = 0.35;
-  double azimuth = -0.96;       ///< at time 0
-  double angularVelocity = 0;   ///< rad/s, counter-clockwise seen from above
+  double azimuth = -0.96;      ///< at time 0
+  double angularVelocity = 0;  ///< rad/s, counter-clockwise seen from above
   double fovY = 0.52;
 
   bool operator==(const OrbitCamera&) const = default;
@@ -145,10 +145,8 @@ inline constexpr std::array<Word<ColourBy>, 7> colourByWords{{{"uniform", Colour
 
 /// All perceptually uniform; `vik` is diverging, for a range whose middle means something.
 enum class ColourMap { viridis, cividis, batlow, vik };
-inline constexpr std::array<Word<ColourMap>, 4> colourMapWords{{{"viridis", ColourMap::viridis},
-                                                                {"cividis", ColourMap::cividis},
-                                                                {"batlow", ColourMap::batlow},
-                                                                {"vik", ColourMap::vik}}};
+inline constexpr std::array<Word<ColourMap>, 4> colourMapWords{
+    {{"viridis", ColourMap::viridis}, {"cividis", ColourMap::cividis}, {"batlow", ColourMap::batlow}, {"vik", ColourMap::vik}}};
 
 /// What is painted on a grain, so that one sees it turn. Needs the orientation in the snapshot.
 enum class Pattern { none, twoTone, stripes };
@@ -162,7 +160,7 @@ struct Bonds {
   std::optional<Range> range;  ///< of the load; without it 0 to 1
   double scale = 1;            ///< drawn radius over the radius
   Colour broken{0xe6, 0x39, 0x46};
-  double brokenFor = 0;        ///< s of the simulation: how long a broken bond leaves a mark
+  double brokenFor = 0;  ///< s of the simulation: how long a broken bond leaves a mark
 
   bool operator==(const Bonds&) const = default;
 };
@@ -187,7 +185,7 @@ struct Grains {
   double scale = 1;  ///< drawn radius over the radius
   ColourBy by = ColourBy::material;
   ColourMap map = ColourMap::viridis;
-  std::optional<Range> range;     ///< SI units; without it each frame has its own, and the legend says so
+  std::optional<Range> range;  ///< SI units; without it each frame has its own, and the legend says so
   Colour uniform{0xd8, 0xb4, 0x78};
   std::vector<Colour> materials;  ///< by index of the material; beyond its end the palette of colour_map.h continues
   Pattern pattern = Pattern::none;
@@ -199,10 +197,8 @@ struct Grains {
 
 /// `wire` draws the borders and creases of the mesh, not its triangulation.
 enum class WallStyle { opaque, translucent, wire, hidden };
-inline constexpr std::array<Word<WallStyle>, 4> wallStyleWords{{{"opaque", WallStyle::opaque},
-                                                                {"translucent", WallStyle::translucent},
-                                                                {"wire", WallStyle::wire},
-                                                                {"hidden", WallStyle::hidden}}};
+inline constexpr std::array<Word<WallStyle>, 4> wallStyleWords{
+    {{"opaque", WallStyle::opaque}, {"translucent", WallStyle::translucent}, {"wire", WallStyle::wire}, {"hidden", WallStyle::hidden}}};
 
 struct WallLook {
   WallStyle style = WallStyle::opaque;
@@ -223,7 +219,7 @@ struct Overlay {
   std::optional<double> slowMotion;  ///< seconds of film per simulated second; printed when it is not 1
   bool legend = true;                ///< drawn when the colour shows a quantity
   LegendPlace legendPlace = LegendPlace::bottomRight;
-  std::string title;                 ///< UTF-8; what the font lacks becomes a box
+  std::string title;  ///< UTF-8; what the font lacks becomes a box
 
   bool operator==(const Overlay&) const = default;
 };

@@ -69,8 +69,8 @@ T interpolated(const std::vector<KeyFrame>& frames, std::size_t k, double time, 
   };
   const double h = frames[k + 1].time - frames[k].time, s = (time - frames[k].time) / h;
   const double s2 = s * s, s3 = s2 * s;
-  return T(frames[k].*member * (2 * s3 - 3 * s2 + 1) + tangent(k) * (h * (s3 - 2 * s2 + s)) +
-           frames[k + 1].*member * (3 * s2 - 2 * s3) + tangent(k + 1) * (h * (s3 - s2)));
+  return T(frames[k].*member * (2 * s3 - 3 * s2 + 1) + tangent(k) * (h * (s3 - 2 * s2 + s)) + frames[k + 1].*member * (3 * s2 - 2 * s3) +
+           tangent(k + 1) * (h * (s3 - s2)));
 }
 
 KeyFrame keyFrameAt(const KeyFrameCamera& camera, double time) {

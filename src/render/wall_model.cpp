@@ -162,9 +162,8 @@ std::uint32_t WallModel::buildTree(std::uint32_t first, std::uint32_t count) {
     const auto& c = triangles_[t].corners;
     return c[0][axis] + c[1][axis] + c[2][axis];
   };
-  std::sort(order_.begin() + first, order_.begin() + first + count, [&](std::uint32_t a, std::uint32_t b) {
-    return middle(a) != middle(b) ? middle(a) < middle(b) : a < b;
-  });
+  std::sort(order_.begin() + first, order_.begin() + first + count,
+            [&](std::uint32_t a, std::uint32_t b) { return middle(a) != middle(b) ? middle(a) < middle(b) : a < b; });
   buildTree(first, count / 2);
   const std::uint32_t second = buildTree(first + count / 2, count - count / 2);
   tree_[self].first = second;

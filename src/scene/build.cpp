@@ -161,8 +161,8 @@ sim::Model buildModel(const Scene& scene) {
   model.load = scene.colours.by == render::ColourBy::force;
   model.showForces = scene.show.forces != render::ShownForces::none;
   const auto ofForces = [](const Observable& o) { return std::holds_alternative<PeakForce>(o.kind); };
-  model.contactForces =
-      scene.diagnostics.has_value() || model.showForces || s.limit == StepRule::spectral || std::any_of(scene.observe.begin(), scene.observe.end(), ofForces);
+  model.contactForces = scene.diagnostics.has_value() || model.showForces || s.limit == StepRule::spectral ||
+                        std::any_of(scene.observe.begin(), scene.observe.end(), ofForces);
   model.continuous = s.continuous;
   model.watch = {s.overlapLimit, s.travelLimit, s.onViolation == OnViolation::stop};
   model.seed = s.seed;
@@ -273,9 +273,8 @@ double expectedSpeed(const sim::Model& model, const Box& bounds, double end) {
   for (const sim::Wall& w : model.walls) {
     if (w.body) wall = std::max(wall, bodySpeed(*w.body, sim::strongestGravity(model.gravity, model.fields.gravity), bounds));
   }
-  const double drop = model.fields.gravity.empty()
-                          ? model.gravity.cwiseAbs().dot(bounds.sizes())  // |g| × height along gravity
-                          : sim::strongestGravity(model.gravity, model.fields.gravity) * bounds.sizes().norm();
+  const double drop = model.fields.gravity.empty() ? model.gravity.cwiseAbs().dot(bounds.sizes())  // |g| × height along gravity
+                                                   : sim::strongestGravity(model.gravity, model.fields.gravity) * bounds.sizes().norm();
   return std::max({std::min(std::sqrt(start * start + 2 * drop), std::max(start, terminalSpeed(model))), wall, flowSpeed(model, bounds)});
 }
 

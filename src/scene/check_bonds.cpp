@@ -30,7 +30,9 @@ void checkBonds(const Scene& scene, const PositionOf& positionOf, Findings& find
     if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
     const auto nearest = nearestName(name, known);
     complain(bonds, key, fmt::format("There is no {} '{}'.", what, name),
-             nearest ? fmt::format("did you mean '{}'?", *nearest) : known.empty() ? "" : fmt::format("there is {}", listNames(known)));
+             nearest         ? fmt::format("did you mean '{}'?", *nearest)
+             : known.empty() ? ""
+                             : fmt::format("there is {}", listNames(known)));
   };
   const std::vector<std::string> sources = namesOf(scene.grains), materials = namesOf(scene.materials), walls = namesOf(scene.walls);
   for (const Bonds& bonds : scene.bonds) {
@@ -51,7 +53,8 @@ void checkBonds(const Scene& scene, const PositionOf& positionOf, Findings& find
                "write two tables of bonds");
     const auto wall = std::find_if(scene.walls.begin(), scene.walls.end(), [&](const Wall& w) { return w.name == bonds.wall; });
     if (wall != scene.walls.end() && wall->body)
-      complain(bonds, "wall", fmt::format("The wall '{}' moves under load and cannot hold bonds.", bonds.wall), "give it a motion, or none");
+      complain(bonds, "wall", fmt::format("The wall '{}' moves under load and cannot hold bonds.", bonds.wall),
+               "give it a motion, or none");
     if (bonds.end && !(*bonds.end > bonds.start))
       complain(bonds, "end", fmt::format("Bonds are made until {} s, before they begin at {} s.", *bonds.end, bonds.start),
                "leave 'end' out to make them once");

@@ -47,9 +47,10 @@ void checkNeed(const Scene& scene, const sim::Reading& reading, const PositionOf
   }
   const auto [a, b] = lacking.front();
   const Material& without = scene.materials[scene.materials[a].properties[need.property] ? b : a];
-  findings.errors.push_back({positionOf({"materials", without.name}),
-                             fmt::format("The {} law '{}' needs '{}' of the material '{}'.", reading.family, reading.law, info.key, without.name),
-                             fmt::format("write it in [materials.{}]; {}", without.name, sentence)});
+  findings.errors.push_back(
+      {positionOf({"materials", without.name}),
+       fmt::format("The {} law '{}' needs '{}' of the material '{}'.", reading.family, reading.law, info.key, without.name),
+       fmt::format("write it in [materials.{}]; {}", without.name, sentence)});
 }
 
 bool isOf(sim::Property property, std::initializer_list<sim::Property> group) {
@@ -60,7 +61,8 @@ bool isOfMagnets(sim::Property property) { return isOf(property, {sim::Property:
 
 // Values that no chosen law reads are not wrong (the law may be switched for a comparison), but worth a word; two that say the same
 // thing in different ways are.
-void checkTable(const Scene& scene, const Properties& properties, sim::Scope scope, const Path& path, const PositionOf& positionOf, Findings& findings) {
+void checkTable(const Scene& scene, const Properties& properties, sim::Scope scope, const Path& path, const PositionOf& positionOf,
+                Findings& findings) {
   const auto at = [&](sim::Property property) {
     Path full = path;
     full.push_back(keyOf(property));
@@ -96,8 +98,7 @@ void checkContact(const Scene& scene, const PositionOf& positionOf, Findings& fi
   try {
     sim::lawIndex(scene.contact);
   } catch (const Error& error) {
-    for (const Diagnostic& what : error.diagnostics())
-      findings.errors.push_back({positionOf({"contact"}), what.message, what.hint});
+    for (const Diagnostic& what : error.diagnostics()) findings.errors.push_back({positionOf({"contact"}), what.message, what.hint});
   }
   if (!scene.contact.rotation) {
     const auto refuse = [&](const char* key, const char* what, std::string hint) {

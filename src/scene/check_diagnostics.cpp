@@ -14,7 +14,8 @@ std::string boxTrouble(const sim::BoxRegion& box) {
   for (int k = 0; k < 3; ++k)
     if (!std::isfinite(box.min[k]) || !std::isfinite(box.max[k])) return "The box is infinite: means need a volume.";
   for (int k = 0; k < 3; ++k)
-    if (!(box.min[k] < box.max[k])) return fmt::format("The box is empty: its {} runs from {} m to {} m.", "xyz"[k], box.min[k], box.max[k]);
+    if (!(box.min[k] < box.max[k]))
+      return fmt::format("The box is empty: its {} runs from {} m to {} m.", "xyz"[k], box.min[k], box.max[k]);
   return {};
 }
 
@@ -27,7 +28,8 @@ void checkDiagnostics(const Scene& scene, const PositionOf& positionOf, Findings
   };
   for (const DiagnosticRegion& region : scene.diagnostics->regions) {
     const Path path{"diagnostics", "regions", region.name};
-    if (region.name == "whole") complain(path, "The region 'whole' is always there: it is around all grains.", "give this one another name");
+    if (region.name == "whole")
+      complain(path, "The region 'whole' is always there: it is around all grains.", "give this one another name");
     if (const std::string trouble = boxTrouble(region.box); !trouble.empty()) complain({path[0], path[1], path[2], "box"}, trouble);
   }
   const auto& grid = scene.diagnostics->grid;

@@ -68,8 +68,7 @@ class FieldCheck {
     };
     const auto grains = grainMaterials(scene_);
     const bool any = std::any_of(grains.begin(), grains.end(), isMagnetic);
-    if (scene_.magnets && !any)
-      complain({"magnets"}, "No grain is magnetic.", "give its material a magnetisation or a susceptibility");
+    if (scene_.magnets && !any) complain({"magnets"}, "No grain is magnetic.", "give its material a magnetisation or a susceptibility");
     if (!scene_.magnets) return;
     for (const FieldSource& source : scene_.magnets->sources) {
       if (source.wall.empty()) continue;

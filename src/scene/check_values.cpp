@@ -45,7 +45,8 @@ class ValueCheck {
   void limit() {
     const Simulation& s = scene_.simulation;
     if (s.limit != StepRule::spectral) return;
-    if (s.timeStep) complain({"simulation", "limit"}, "The limit sets the automatic time step, and time_step is given.", "write one of them");
+    if (s.timeStep)
+      complain({"simulation", "limit"}, "The limit sets the automatic time step, and time_step is given.", "write one of them");
     try {
       sim::checkChangingSteps(s.integrator);
     } catch (const Error& error) {
@@ -77,7 +78,8 @@ class ValueCheck {
     if (!box(path, b)) return;
     for (int k = 0; k < 3; ++k) {
       if (!scene_.simulation.periodic[static_cast<std::size_t>(k)] || std::isfinite(b.max[k] - b.min[k])) continue;
-      complain(inside(path, "periodic"), fmt::format("The domain is periodic along {} and has no end there.", "xyz"[k]), "give its min and max");
+      complain(inside(path, "periodic"), fmt::format("The domain is periodic along {} and has no end there.", "xyz"[k]),
+               "give its min and max");
     }
   }
 

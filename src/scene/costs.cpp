@@ -44,7 +44,8 @@ MeasuredCosts parsed(const std::string& csv) {
   while (std::getline(stream, line)) {
     const std::vector<std::string> cells = cellsOf(line);
     if (cells.size() < 9) continue;
-    costs.features.push_back({cells[0], cells[1], number(cells[2]), number(cells[3]), static_cast<int>(number(cells[4])), static_cast<int>(number(cells[5]))});
+    costs.features.push_back(
+        {cells[0], cells[1], number(cells[2]), number(cells[3]), static_cast<int>(number(cells[4])), static_cast<int>(number(cells[5]))});
     costs.machine = cells[7];
     costs.isa = cells[8];
   }

@@ -11,9 +11,9 @@ namespace tsubu::scene {
 
 struct FeatureCost {
   std::string feature;
-  std::string comparedWith;  ///< empty: nothing
-  double nanoseconds = 0;    ///< per grain-step, of the bed that has it
-  double added = 0;          ///< ns per grain-step more than without
+  std::string comparedWith;                    ///< empty: nothing
+  double nanoseconds = 0;                      ///< per grain-step, of the bed that has it
+  double added = 0;                            ///< ns per grain-step more than without
   int bytesPerGrain = 0, bytesPerContact = 0;  ///< more than without
 };
 

@@ -12,23 +12,27 @@ namespace {
 using namespace dimension;
 
 void describeSimulation(Form& form, Simulation& s) {
-  static constexpr Choice integrators[] = {{"symplectic_euler", "Velocity first, then position with the new velocity: first order."},
-                                           {"velocity_verlet", "Half a kick, drift, half a kick; dashpots see velocities carried on: second order."},
-                                           {"explicit_euler", "Both from the old values: first order, gains energy in every step (to see why it is not used)."},
-                                           {"leapfrog", "Velocities at half steps, which contacts see: second order, first with dashpots."},
-                                           {"central_differences", "Positions from the last two (Störmer): the path of leapfrog, with more rounding."},
-                                           {"rk4", "Runge–Kutta: fourth order where contacts are smooth, four evaluations per step."}};
-  static constexpr Choice precisions[] = {{"double", "Everything in double precision."},
-                                          {"mixed", "Contacts between grains in single precision, from differences of places in double; all else in double."}};
-  static constexpr Choice limits[] = {{"packing", "What a packing of the smallest grains bears, known before any contact is; one step for the whole run."},
-                                      {"spectral", "What the live network of contacts and bonds bears, from its stiffest mode; steps follow it through the run."}};
+  static constexpr Choice integrators[] = {
+      {"symplectic_euler", "Velocity first, then position with the new velocity: first order."},
+      {"velocity_verlet", "Half a kick, drift, half a kick; dashpots see velocities carried on: second order."},
+      {"explicit_euler", "Both from the old values: first order, gains energy in every step (to see why it is not used)."},
+      {"leapfrog", "Velocities at half steps, which contacts see: second order, first with dashpots."},
+      {"central_differences", "Positions from the last two (Störmer): the path of leapfrog, with more rounding."},
+      {"rk4", "Runge–Kutta: fourth order where contacts are smooth, four evaluations per step."}};
+  static constexpr Choice precisions[] = {
+      {"double", "Everything in double precision."},
+      {"mixed", "Contacts between grains in single precision, from differences of places in double; all else in double."}};
+  static constexpr Choice limits[] = {
+      {"packing", "What a packing of the smallest grains bears, known before any contact is; one step for the whole run."},
+      {"spectral", "What the live network of contacts and bonds bears, from its stiffest mode; steps follow it through the run."}};
   static constexpr Choice axes[] = {{"x", {}}, {"y", {}}, {"z", {}}};
   static constexpr Choice violations[] = {{"stop", "End the run with a sentence that says which grain, where, when and why."},
                                           {"warn", "Say it once and go on."}};
   form.quantity(required("end", "Simulated time at which the run ends."), s.end, time, positive);
   form.vector({"gravity", "Acceleration of gravity."}, s.gravity, acceleration);
   words(form, {"integrator", "How velocities and positions are advanced."}, s.integrator, integrators);
-  words(form, {"precision", "What is computed in which numbers: contacts in single precision take less time (docs/tradeoff.md tells the error)."},
+  words(form,
+        {"precision", "What is computed in which numbers: contacts in single precision take less time (docs/tradeoff.md tells the error)."},
         s.precision, precisions);
   form.quantityOrAuto({"time_step", "\"auto\": the safety factor times the stability limit."}, s.timeStep, time, positive);
   words(form, {"limit", "What the automatic time step is a share of."}, s.limit, limits);
@@ -36,27 +40,28 @@ void describeSimulation(Form& form, Simulation& s) {
   form.integer({"seed", "Another seed gives other random numbers, and nothing else."}, s.seed, 0, std::numeric_limits<std::int64_t>::max());
   bool present = s.domain.has_value();
   sim::BoxRegion domain = s.domain.value_or(sim::BoxRegion{});
-  form.optionalTable({"domain", "Grains that leave this box are lost, or go on at its other end. Absent: a wide box around all that is there."},
-                     present, [&](Form& f) {
-                       describeBox(f, domain);
-                       f.someWords({"periodic", "Directions in which the box repeats itself: what leaves through one face comes in through the opposite "
-                                                "one. Walls are not repeated: let them go on beyond the box."},
-                                   s.periodic, axes);
-                     });
+  form.optionalTable(
+      {"domain", "Grains that leave this box are lost, or go on at its other end. Absent: a wide box around all that is there."}, present,
+      [&](Form& f) {
+        describeBox(f, domain);
+        f.someWords({"periodic",
+                     "Directions in which the box repeats itself: what leaves through one face comes in through the opposite "
+                     "one. Walls are not repeated: let them go on beyond the box."},
+                    s.periodic, axes);
+      });
   s.domain = present ? std::optional(domain) : std::nullopt;
   form.quantityOrAuto({"skin", "How much farther than contact neighbours are listed. \"auto\": from the radii."}, s.skin, length, positive);
   form.boolean({"ledger", "Keep the energy ledger."}, s.ledger);
-  form.boolean({"continuous", "Grains that go farther than travel_limit in a step are swept against others and walls, and meet them as hard spheres; "
-                              "otherwise that is a violation."},
+  form.boolean({"continuous",
+                "Grains that go farther than travel_limit in a step are swept against others and walls, and meet them as hard spheres; "
+                "otherwise that is a violation."},
                s.continuous);
   words(form, {"on_violation", "What happens when a grain overlaps too deeply or moves too far in a step."}, s.onViolation, violations);
   form.quantity({"overlap_limit", "Deepest overlap allowed, in radii of the smaller grain."}, s.overlapLimit, number, {0, 1, false, false});
   form.quantity({"travel_limit", "Longest way allowed in one step, in radii."}, s.travelLimit, number, {0, 1, false, false});
 }
 
-std::string& lawOf(sim::ContactChoice& choice, std::string_view family) {
-  return const_cast<std::string&>(sim::chosenIn(choice, family));
-}
+std::string& lawOf(sim::ContactChoice& choice, std::string_view family) { return const_cast<std::string&>(sim::chosenIn(choice, family)); }
 
 void describeContact(Form& form, sim::ContactChoice& choice) {
   for (const sim::LawFamily& family : sim::lawFamilies()) {
@@ -72,8 +77,12 @@ void describeContact(Form& form, sim::ContactChoice& choice) {
     if (index != noneOfThem) name = choices[index].word;
   }
   form.boolean({"tension", "May the normal force pull at the end of a contact, as a plain dashpot does?"}, choice.tension);
-  form.boolean({"rotation", "Do grains turn, where friction would turn them? Held, they slide and stick and do not roll: to see what rotation is worth."}, choice.rotation);
-  form.boolean({"rescale", "Does a Mindlin spring relax when its stiffness falls? Without, it creates energy (for comparison)."}, choice.rescale);
+  form.boolean(
+      {"rotation",
+       "Do grains turn, where friction would turn them? Held, they slide and stick and do not roll: to see what rotation is worth."},
+      choice.rotation);
+  form.boolean({"rescale", "Does a Mindlin spring relax when its stiffness falls? Without, it creates energy (for comparison)."},
+               choice.rescale);
 }
 
 void describeProperties(Form& form, Properties& properties, sim::Scope scope) {

@@ -25,7 +25,8 @@ void describeDiagnostics(Form& form, Scene& scene) {
   bool present = scene.diagnostics.has_value();
   Diagnostics held = scene.diagnostics.value_or(Diagnostics{});
   form.optionalTable(
-      {"diagnostics", "What grains do as a crowd: contacts and force chains, temperature, stress, in diagnostics.csv; what walls carry, in walls.csv."},
+      {"diagnostics",
+       "What grains do as a crowd: contacts and force chains, temperature, stress, in diagnostics.csv; what walls carry, in walls.csv."},
       present, [&](Form& f) {
         f.integer({"every", "Rows of the ledger from one measurement to the next."}, held.every, 1, 1000000);
         f.table({"regions", "Parts of space with rows of their own, beside those of the whole."}, [&](Form& regions) {

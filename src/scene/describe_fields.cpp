@@ -125,8 +125,9 @@ void describeSource(Form& form, FieldSource& source) {
 }
 
 void describeMagnets(Form& form, Magnets& magnets) {
-  constexpr std::string_view cutOff = "Distance of centres from which on two grains do not feel each other; the last fifth of the way is "
-                                      "smooth. \"auto\": four diameters of the largest magnet.";
+  constexpr std::string_view cutOff =
+      "Distance of centres from which on two grains do not feel each other; the last fifth of the way is "
+      "smooth. \"auto\": four diameters of the largest magnet.";
   form.quantityOrAuto({"cut_off", cutOff}, magnets.cutOff, length, positive);
   form.table({"sources", "Magnets that are not grains."}, [&](Form& f) {
     f.others({"name", "A source."}, namedEntries(magnets.sources, describeSource));
@@ -147,11 +148,11 @@ void describeOptional(Form& form, const Field& field, std::optional<T>& value, D
 void describeFields(Form& form, Scene& scene) {
   describeOptional(form, {"magnets", "Grains are magnets, through magnetisation or susceptibility of their materials."}, scene.magnets,
                    describeMagnets);
-  describeOptional(form, {"heat", "Heat flows between grains that touch. Materials then need conductivity and heat_capacity."}, scene.heat,
-                   [](Form& f, Heat& heat) {
-                     f.quantity({"temperature", "Of grains at the start, where their source says nothing."}, heat.temperature, temperature,
-                                positive);
-                   });
+  describeOptional(
+      form, {"heat", "Heat flows between grains that touch. Materials then need conductivity and heat_capacity."}, scene.heat,
+      [](Form& f, Heat& heat) {
+        f.quantity({"temperature", "Of grains at the start, where their source says nothing."}, heat.temperature, temperature, positive);
+      });
   form.table({"fields", "What acts on grains from afar. Each part is computed only when it is written."}, [&](Form& f) {
     f.list({"gravity", "A table, or an array of them that are applied one after the other. Absent: gravity stays as it is."},
            plainEntries(scene.fields.gravity, describeChange));

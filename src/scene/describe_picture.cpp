@@ -89,24 +89,32 @@ void describeColours(Form& form, render::Grains& grains) {
   form.rangeOrAuto({"range", "[low, high] of the quantity, with units. \"auto\": of each frame."}, grains.range,
                    dimensionOfColour(grains.by));
   form.colour({"uniform", "The colour of all grains when by = \"uniform\"."}, grains.uniform);
-  words(form, {"pattern", "What is painted on the grains, so that one sees them turn. How far they have is kept only then: a twentieth of the time of a step."}, grains.pattern, render::patternWords);
+  words(form,
+        {"pattern",
+         "What is painted on the grains, so that one sees them turn. How far they have is kept only then: a twentieth of the time of a "
+         "step."},
+        grains.pattern, render::patternWords);
 }
 
 void describeShow(Form& form, Show& show) {
   form.boolean({"grains", "Draw the grains."}, show.grains);
   form.boolean({"bonds", "Draw the bonds, where there are any: cylinders, coloured by stress over strength."}, show.bonds);
-  form.quantityOrAuto({"grain_scale", "Drawn radius of grains over their radius: small ones show the bonds and forces between them. \"auto\": "
-                                      "1, and 0.25 where forces are drawn."},
+  form.quantityOrAuto({"grain_scale",
+                       "Drawn radius of grains over their radius: small ones show the bonds and forces between them. \"auto\": "
+                       "1, and 0.25 where forces are drawn."},
                       show.grainScale, number, {0.01, 1, true, false});
   form.quantity({"bond_scale", "Drawn radius of bonds over their radius."}, show.bondScale, number, {0.01, 2, true, false});
   words(form, {"bond_map", "The colours of bonds from unloaded to breaking."}, show.bondMap, render::colourMapWords);
   form.rangeOrAuto({"bond_range", "[low, high] of stress over strength. \"auto\": 0 to 1."}, show.bondRange, number);
-  form.quantityOrAuto({"broken_for", "Simulated time for which a broken bond leaves a mark that shrinks. \"auto\": a third of a second of film."},
-                      show.brokenFor, time, notNegative);
-  words(form, {"forces", "Draw the forces of contacts as bars between centres, as thick as the force is large: \"chains\" those above the mean."},
+  form.quantityOrAuto(
+      {"broken_for", "Simulated time for which a broken bond leaves a mark that shrinks. \"auto\": a third of a second of film."},
+      show.brokenFor, time, notNegative);
+  words(form,
+        {"forces", "Draw the forces of contacts as bars between centres, as thick as the force is large: \"chains\" those above the mean."},
         show.forces, render::shownForcesWords);
   words(form, {"force_map", "The colours of contact forces from low to high."}, show.forceMap, render::colourMapWords);
-  form.rangeOrAuto({"force_range", "[low, high] of contact forces, with units. \"auto\": of each frame, but for its largest fiftieth."}, show.forceRange, force);
+  form.rangeOrAuto({"force_range", "[low, high] of contact forces, with units. \"auto\": of each frame, but for its largest fiftieth."},
+                   show.forceRange, force);
   form.quantityOrAuto({"force_radius", "Of the bar of the largest force in the range. \"auto\": half the radius of the smallest grain."},
                       show.forceRadius, length, positive);
 }

@@ -91,11 +91,11 @@ struct Simulation {
   sim::Precision precision = sim::Precision::full;
   std::optional<double> timeStep;  ///< s; absent: from the stability limit
   StepRule limit = StepRule::packing;
-  double safety = 0.25;            ///< of the stability limit, when the time step is automatic
+  double safety = 0.25;  ///< of the stability limit, when the time step is automatic
   std::uint64_t seed = 1;
   std::optional<sim::BoxRegion> domain;
   std::array<bool, 3> periodic{};  ///< x, y, z: directions in which the domain repeats itself
-  std::optional<double> skin;  ///< m
+  std::optional<double> skin;      ///< m
   bool ledger = true;
   bool continuous = false;
   OnViolation onViolation = OnViolation::stop;
@@ -165,11 +165,11 @@ struct Listed {
 struct GrainSource {
   std::string name;
   std::variant<Packing, Lattice, Inlet, FromFile, Listed> from;
-  std::string material;          ///< empty: the only one (or, from a file, the file says)
-  sim::SizeDistribution radii;   ///< not of a file
-  Vec3 velocity = Vec3::Zero();  ///< m/s; added to what a file says
-  double velocitySpread = 0;     ///< m/s: largest random deviation of each component
-  Vec3 spin = Vec3::Zero();      ///< rad/s; added to what a file says
+  std::string material;               ///< empty: the only one (or, from a file, the file says)
+  sim::SizeDistribution radii;        ///< not of a file
+  Vec3 velocity = Vec3::Zero();       ///< m/s; added to what a file says
+  double velocitySpread = 0;          ///< m/s: largest random deviation of each component
+  Vec3 spin = Vec3::Zero();           ///< rad/s; added to what a file says
   std::optional<double> temperature;  ///< K; absent: that of [heat]
 
   bool operator==(const GrainSource&) const = default;

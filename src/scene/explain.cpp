@@ -47,8 +47,9 @@ double expectedFromStreams(const sim::Model& model, double end) {
 std::string singleContactLine(const sim::Model& model, double limit) {
   const sim::SingleContactRules rules = sim::singleContactRules(model);
   if (!std::isfinite(rules.undamped)) return {};
-  return fmt::format("one contact    rules for a single contact would allow {:.2g} (Note), {:.2g} (2√(m/k)), {:.2g} (π√(m/k)) times that limit\n",
-                     rules.note / limit, rules.undamped / limit, rules.duration / limit);
+  return fmt::format(
+      "one contact    rules for a single contact would allow {:.2g} (Note), {:.2g} (2√(m/k)), {:.2g} (π√(m/k)) times that limit\n",
+      rules.note / limit, rules.undamped / limit, rules.duration / limit);
 }
 
 std::string lawLines(const Scene& scene) {
@@ -65,7 +66,8 @@ std::string lawLines(const Scene& scene) {
 // What bench/step has measured for each feature of the scene, and the sum in ns per grain-step.
 std::string costLines(const sim::Model& model, double& sum) {
   const MeasuredCosts& costs = measuredCosts();
-  std::string text = fmt::format("each costs     ns per grain-step and bytes, as measured in a bed of spheres by one thread of {} ({})\n", costs.machine, costs.isa);
+  std::string text = fmt::format("each costs     ns per grain-step and bytes, as measured in a bed of spheres by one thread of {} ({})\n",
+                                 costs.machine, costs.isa);
   sum = 0;
   for (const std::string& feature : featuresOf(model)) {
     const FeatureCost* const cost = costs.of(feature);
@@ -110,10 +112,11 @@ std::string explain(const Scene& scene, const Built& built) {
                       plan.bytesPerContact, plan.bytesPerListedPair, memory / 1e6);
   text += fmt::format("time step      {:.6g} s, set by {} (stability limit {:.4g} s)\n", frames.timeStep, frames.limitedBy, frames.limit);
   if (frames.live)
-    text += fmt::format("               and follows the stiffest mode of the live network: {} of its limit, {:.4g} s at most ({})\n", frames.live->safety,
-                        frames.live->longest, frames.live->longestBy);
+    text += fmt::format("               and follows the stiffest mode of the live network: {} of its limit, {:.4g} s at most ({})\n",
+                        frames.live->safety, frames.live->longest, frames.live->longestBy);
   text += singleContactLine(built.model, frames.limit);
-  text += fmt::format("steps          {}{} for {:g} s\n", frames.live ? "by the first of them " : "", frames.steps, static_cast<double>(frames.steps) * frames.timeStep);
+  text += fmt::format("steps          {}{} for {:g} s\n", frames.live ? "by the first of them " : "", frames.steps,
+                      static_cast<double>(frames.steps) * frames.timeStep);
   text += fmt::format("frames         {} of {} x {} pixels, one every {:g} s ({} steps), slow motion {:g}\n", frames.frames,
                       scene.picture.width, scene.picture.height, frames.interval, frames.stepsPerFrame, slowMotion(scene.output));
   text += costs;

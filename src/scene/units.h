@@ -7,8 +7,8 @@
 
 namespace tsubu::scene {
 
-/// Exponents of metre, kilogram, second, radian, kelvin and ampere. The angle counts as a dimension of its own, so that a frequency is not taken for an
-/// angular velocity.
+/// Exponents of metre, kilogram, second, radian, kelvin and ampere. The angle counts as a dimension of its own, so that a frequency is not
+/// taken for an angular velocity.
 struct Dimension {
   std::array<int, 6> exponents{};
 

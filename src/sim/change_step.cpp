@@ -12,7 +12,8 @@ namespace tsubu::sim {
 void checkChangingSteps(Integrator integrator) {
   if (integrator != Integrator::leapfrog && integrator != Integrator::centralDifferences) return;
   throw Error(ErrorKind::scene,
-              fmt::format("With {} contacts see the velocity of the half step before, which belongs to steps of one length.", schemeOf(integrator).name),
+              fmt::format("With {} contacts see the velocity of the half step before, which belongs to steps of one length.",
+                          schemeOf(integrator).name),
               "choose velocity_verlet");
 }
 
@@ -44,22 +45,25 @@ void Simulation::Impl::beginChange() {
   nextTimeStep = 0;
 }
 
-// Velocities have gone from the middle of the old step to the middle of the new one; the way, so far by the length of the kick, is brought to
-// that of the new step.
+// Velocities have gone from the middle of the old step to the middle of the new one; the way, so far by the length of the kick, is brought
+// to that of the new step.
 void Simulation::Impl::finishChange() {
   const double kick = kickStep(), rest = nextTimeStep - kick, ahead = nextTimeStep / kick;
   for (std::size_t g = 0; rest != 0 && g < state.size(); ++g) {
     GrainRow& row = state.rows[g];
     const HalfStepRow& half = state.half[g];
     row.x += rest * half.vx, row.y += rest * half.vy, row.z += rest * half.vz;
-    row.vx = half.vx + ahead * (row.vx - half.vx), row.vy = half.vy + ahead * (row.vy - half.vy), row.vz = half.vz + ahead * (row.vz - half.vz);
+    row.vx = half.vx + ahead * (row.vx - half.vx), row.vy = half.vy + ahead * (row.vy - half.vy),
+    row.vz = half.vz + ahead * (row.vz - half.vz);
     if (!state.turns) continue;
     if (state.keepsOrientation) {
       AngleRow& turned = state.turned[g];
       const double angle = rest * row.inverseRadius;
-      turned.x += static_cast<float>(angle * half.sx), turned.y += static_cast<float>(angle * half.sy), turned.z += static_cast<float>(angle * half.sz);
+      turned.x += static_cast<float>(angle * half.sx), turned.y += static_cast<float>(angle * half.sy),
+          turned.z += static_cast<float>(angle * half.sz);
     }
-    row.sx = half.sx + ahead * (row.sx - half.sx), row.sy = half.sy + ahead * (row.sy - half.sy), row.sz = half.sz + ahead * (row.sz - half.sz);
+    row.sx = half.sx + ahead * (row.sx - half.sx), row.sy = half.sy + ahead * (row.sy - half.sy),
+    row.sz = half.sz + ahead * (row.sz - half.sz);
   }
   state.allToSingle();
   since = time();
@@ -91,7 +95,8 @@ ContactNetwork Simulation::Impl::networkNow() {
   for (const SeenGrain& grain : instant.grains) {
     const Vec3& x = grain.position;
     const V3 u = flow.at({x.x(), x.y(), x.z()}).velocity;
-    const DampingRates rates = dampingRates(model.fields, grain.mass, grain.radius, (grain.velocity - Vec3(u.x, u.y, u.z)).norm(), state.turns);
+    const DampingRates rates =
+        dampingRates(model.fields, grain.mass, grain.radius, (grain.velocity - Vec3(u.x, u.y, u.z)).norm(), state.turns);
     network.slowing = std::max({network.slowing, rates.linear, rates.rotary});
   }
   return network;
@@ -103,7 +108,9 @@ StepLimit Simulation::Impl::stableStepNow() {
   for (std::size_t w = 0; w < moving.size(); ++w) {
     if (moving[w].contacts() == 0) continue;
     const double own = sim::stableStep(moving[w], contactsOfMoving[w], model.integrator);
-    if (own < limit.step) limit.step = own, limit.by = fmt::format("wall '{}', of its mass and {} contacts", model.walls[moving[w].wall()].name, moving[w].contacts());
+    if (own < limit.step)
+      limit.step = own,
+      limit.by = fmt::format("wall '{}', of its mass and {} contacts", model.walls[moving[w].wall()].name, moving[w].contacts());
   }
   return limit;
 }

@@ -9,12 +9,12 @@ namespace tsubu::sim {
 
 /// What contacts read of a grain. `v` and `s` are the velocities that contacts see (docs/physics.md, I1).
 struct alignas(32) GrainRow {
-  double x, y, z;         ///< centre, m
-  double radius;          ///< m
-  double vx, vy, vz;      ///< m/s
-  double inverseMass;     ///< 1/kg
-  double sx, sy, sz;      ///< r ω, m/s
-  double inverseRadius;   ///< 1/m
+  double x, y, z;        ///< centre, m
+  double radius;         ///< m
+  double vx, vy, vz;     ///< m/s
+  double inverseMass;    ///< 1/kg
+  double sx, sy, sz;     ///< r ω, m/s
+  double inverseRadius;  ///< 1/m
 
   TSUBU_INLINE V3 position() const { return {x, y, z}; }
   TSUBU_INLINE V3 velocity() const { return {vx, vy, vz}; }

@@ -32,12 +32,12 @@ class HeatPass : public ForcePass {
 
   std::vector<double> conductivity_, capacity_;  // by material: W/(m K), J/(kg K)
   std::vector<double> flow_, conductance_;       // by grain: W into it, and Σh, W/K
-  struct Across {  // what the owner of an image gets, added when all slabs are done
+  struct Across {                                // what the owner of an image gets, added when all slabs are done
     std::int32_t owner;
     double flow, conductance;
   };
-  std::vector<std::vector<Across>> across_;      // by slab
-  std::vector<double> fromWalls_;                // by slab, W
+  std::vector<std::vector<Across>> across_;       // by slab
+  std::vector<double> fromWalls_;                 // by slab, W
   double heatFromWalls_ = 0, lastFromWalls_ = 0;  // J
 };
 

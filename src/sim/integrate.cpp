@@ -17,11 +17,16 @@ Quat orientationNow(const State& state, std::size_t grain) {
 }
 
 Motion integrate(State& state, std::int32_t first, std::int32_t last, const Vec3& gravity, double dt, bool turn, bool bySingle) {
-  const MoveContext context{state.rows.data(),     state.forces.data(), state.single.data(),   state.singleForces.data(), state.half.data(),
-                            state.previous.data(), state.turned.data(), state.perSkin2.data(), v3(gravity),               dt};
-  const Motion motion = kernels().grains->move(state.integrator, {state.turns, state.keepsOrientation, state.mixed, bySingle})(context, first, last);
+  const MoveContext context{state.rows.data(),   state.forces.data(),
+                            state.single.data(), state.singleForces.data(),
+                            state.half.data(),   state.previous.data(),
+                            state.turned.data(), state.perSkin2.data(),
+                            v3(gravity),         dt};
+  const Motion motion =
+      kernels().grains->move(state.integrator, {state.turns, state.keepsOrientation, state.mixed, bySingle})(context, first, last);
   if (turn && state.keepsOrientation && first < last) {
-    kernels().grains->turn(state.orientation[static_cast<std::size_t>(first)].coeffs().data(), &state.turned[static_cast<std::size_t>(first)], last - first);
+    kernels().grains->turn(state.orientation[static_cast<std::size_t>(first)].coeffs().data(),
+                           &state.turned[static_cast<std::size_t>(first)], last - first);
     std::fill(state.turned.begin() + first, state.turned.begin() + last, AngleRow{});
   }
   return motion;

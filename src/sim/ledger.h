@@ -22,8 +22,8 @@ struct Tally {
 
 /// Heat, apart from the mechanical account: it does not act back on the motion.
 struct HeatLedger {
-  double stored = 0;             ///< Σ m c T, J
-  double fromWalls = 0;          ///< so far, J
+  double stored = 0;                 ///< Σ m c T, J
+  double fromWalls = 0;              ///< so far, J
   double inserted = 0, removed = 0;  ///< with grains, so far, J
 };
 
@@ -40,7 +40,7 @@ struct Ledger {
   double elasticTangential = 0;
   double elasticRolling = 0;
   double elasticBonds = 0;
-  double potentialFields = 0;     ///< of grains in each other's field (magnets)
+  double potentialFields = 0;  ///< of grains in each other's field (magnets)
 
   double dissipatedNormal = 0;      ///< by normal dashpots
   double dissipatedTangential = 0;  ///< by tangential dashpots
@@ -57,7 +57,7 @@ struct Ledger {
 
   HeatLedger heat;
 
-  Vec3 momentum = Vec3::Zero();           ///< kg m/s
+  Vec3 momentum = Vec3::Zero();             ///< kg m/s
   Vec3 angularMomentumBulk = Vec3::Zero();  ///< X_G × P about the origin, kg m²/s
   Vec3 angularMomentumRest = Vec3::Zero();  ///< about the centre of mass, spin included
 

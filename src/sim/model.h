@@ -46,7 +46,9 @@ class PairTable {
   explicit PairTable(std::size_t materials = 0) : materials_(materials), values_(materials * materials) {}
   std::size_t materials() const { return materials_; }
   const PropertyValues& at(std::size_t a, std::size_t b) const { return values_[a * materials_ + b]; }
-  void set(std::size_t a, std::size_t b, const PropertyValues& values) { values_[a * materials_ + b] = values_[b * materials_ + a] = values; }
+  void set(std::size_t a, std::size_t b, const PropertyValues& values) {
+    values_[a * materials_ + b] = values_[b * materials_ + a] = values;
+  }
 
  private:
   std::size_t materials_;
@@ -59,7 +61,7 @@ struct Wall {
   std::shared_ptr<const Surface> surface;
   WallMotion motion;
   std::optional<double> temperature;  ///< K, fixed; absent: insulated
-  std::optional<WallBody> body;  ///< moves under load; then `motion` is still
+  std::optional<WallBody> body;       ///< moves under load; then `motion` is still
   std::uint16_t material = 0;
 };
 
@@ -84,8 +86,8 @@ struct Watch {
   bool stop = true;           ///< otherwise warn once for each kind and go on
 };
 
-/// What is computed in which numbers (docs/decisions/0012-precision.md). `mixed`: contacts between grains in single precision, from differences
-/// of positions taken in double, and all else in double.
+/// What is computed in which numbers (docs/decisions/0012-precision.md). `mixed`: contacts between grains in single precision, from
+/// differences of positions taken in double, and all else in double.
 enum class Precision { full, mixed };
 
 struct Model {
@@ -94,28 +96,28 @@ struct Model {
   ContactChoice contact;
   Integrator integrator = Integrator::velocityVerlet;
   Precision precision = Precision::full;
-  Vec3 gravity = Vec3::Zero();           ///< m/s²; before any change that `fields` tells of
+  Vec3 gravity = Vec3::Zero();  ///< m/s²; before any change that `fields` tells of
   Fields fields;
-  std::optional<Magnets> magnets;        ///< grains act on each other as magnets
-  bool heat = false;                     ///< conduct heat between grains that touch
+  std::optional<Magnets> magnets;  ///< grains act on each other as magnets
+  bool heat = false;               ///< conduct heat between grains that touch
   std::vector<Grain> grains;
   std::vector<Stream> streams;
   std::vector<Wall> walls;
   std::vector<Sink> sinks;
   std::vector<Counter> counters;
-  std::vector<Bonding> bonds;            ///< a pair is bonded once: by the first that claims it
-  Box domain;                            ///< grains whose centre leaves it are lost; empty: a box around all that is there, with a wide margin
-  std::array<bool, 3> periodic{};        ///< directions in which the domain repeats itself; it must be finite there (periodic.h)
-  double timeStep = 0;                   ///< s; chosen by chooseTimeStep(), or by the user
-  double skin = 0;                       ///< m, reach of the outer neighbour list beyond contact; 0: chosen from the radii
-  bool ledger = true;                    ///< keep the energy ledger
-  std::optional<double> showBonds;       ///< snapshots carry the bonds, and broken ones for so long (s); absent: no bonds
-  bool orientation = true;               ///< snapshots tell how grains that turn are turned; lasting magnets keep it in any case
-  bool load = false;                     ///< snapshots carry the sum of contact forces on each grain
-  bool showForces = false;               ///< snapshots carry the forces of contacts; needs `contactForces`
-  bool contactForces = false;            ///< an Instant may be asked for: contact forces are noted when somebody looks
+  std::vector<Bonding> bonds;       ///< a pair is bonded once: by the first that claims it
+  Box domain;                       ///< grains whose centre leaves it are lost; empty: a box around all that is there, with a wide margin
+  std::array<bool, 3> periodic{};   ///< directions in which the domain repeats itself; it must be finite there (periodic.h)
+  double timeStep = 0;              ///< s; chosen by chooseTimeStep(), or by the user
+  double skin = 0;                  ///< m, reach of the outer neighbour list beyond contact; 0: chosen from the radii
+  bool ledger = true;               ///< keep the energy ledger
+  std::optional<double> showBonds;  ///< snapshots carry the bonds, and broken ones for so long (s); absent: no bonds
+  bool orientation = true;          ///< snapshots tell how grains that turn are turned; lasting magnets keep it in any case
+  bool load = false;                ///< snapshots carry the sum of contact forces on each grain
+  bool showForces = false;          ///< snapshots carry the forces of contacts; needs `contactForces`
+  bool contactForces = false;       ///< an Instant may be asked for: contact forces are noted when somebody looks
   Watch watch;
-  bool continuous = false;               ///< C: grains that go beyond the watch's travel limit in a step are swept, and not complained of
+  bool continuous = false;  ///< C: grains that go beyond the watch's travel limit in a step are swept, and not complained of
   std::uint64_t seed = 1;
 };
 
@@ -124,7 +126,7 @@ inline constexpr double expectedOverlap = 0.01;
 
 /// The largest step that is safe before any contact is known, and which pair of materials set it.
 struct TimeStepChoice {
-  double limit = 0;      ///< s: stability limit of the stiffest way in which the smallest grains of a packing can swing (S2, S3)
+  double limit = 0;  ///< s: stability limit of the stiffest way in which the smallest grains of a packing can swing (S2, S3)
   std::string limitedBy;
   std::string warning;  ///< empty, or why no step would be stable
 };

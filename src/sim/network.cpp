@@ -104,7 +104,8 @@ class VerletMap {
     const double stretch = (grains[i].x - (wall ? zero : grains[j].x)).dot(n), along = velocity.dot(n);
     const Vec3 slip = velocity - along * n;
     if (link.bond) {  // by the way that the grains have gone
-      const Vec3 gone = grains[i].u - (wall ? zero : grains[j].u) - (link.firstLever * grains[i].w + (wall ? zero : Vec3(link.secondLever * grains[j].w))).cross(n);
+      const Vec3 gone = grains[i].u - (wall ? zero : grains[j].u) -
+                        (link.firstLever * grains[i].w + (wall ? zero : Vec3(link.secondLever * grains[j].w))).cross(n);
       springs.across += dt_ * (gone - gone.dot(n) * n);
       springs.turned += dt_ * (grains[i].w - (wall ? zero : grains[j].w));
     } else {
@@ -189,18 +190,21 @@ class SpectralLimit {
   }
 
  private:
-  // A start that has something of everything: a mode of one corner never finds a stiffer one that is not joined to it. Most of what is added
-  // goes to the grain with the stiffest contacts.
+  // A start that has something of everything: a mode of one corner never finds a stiffer one that is not joined to it. Most of what is
+  // added goes to the grain with the stiffest contacts.
   void stir(double share) {
     Random random(1, 0);
     const std::size_t known = std::min(mode_.size(), network_.inverseMass.size());
     mode_.resize(network_.inverseMass.size(), Motion6::Zero());
     for (std::size_t g = 0; g < mode_.size(); ++g)
-      for (int k = 0; k < 6; ++k) mode_[g][k] += (g < known ? share : 1) * random.uniform(-1, 1) / std::sqrt(static_cast<double>(mode_.size()));
+      for (int k = 0; k < 6; ++k)
+        mode_[g][k] += (g < known ? share : 1) * random.uniform(-1, 1) / std::sqrt(static_cast<double>(mode_.size()));
     std::vector<double> sum(mode_.size(), 0);
     for (const Link& link : network_.links)
       for (const std::int32_t end : {link.first, link.second})
-        if (end >= 0) sum[static_cast<std::size_t>(end)] += (link.along.stiffness + link.across.stiffness) * network_.inverseMass[static_cast<std::size_t>(end)];
+        if (end >= 0)
+          sum[static_cast<std::size_t>(end)] +=
+              (link.along.stiffness + link.across.stiffness) * network_.inverseMass[static_cast<std::size_t>(end)];
     const auto stiffest = static_cast<std::size_t>(std::max_element(sum.begin(), sum.end()) - sum.begin());
     for (int k = 0; k < 6; ++k) mode_[stiffest][k] += random.uniform(-1, 1);
   }
@@ -237,7 +241,8 @@ class SpectralLimit {
       const double carried = stiffnessWeight * (link.bond ? 1 : carriedOn_);
       const auto weigh = [&](const Link::Spring& spring) { return carried * spring.stiffness + dampingWeight * spring.damping; };
       const double across = weigh(link.across), rolling = weigh(link.rolling);
-      const Vec3 force = (stiffnessWeight * link.along.stiffness + dampingWeight * link.along.damping - across) * slip.dot(n) * n + across * slip;
+      const Vec3 force =
+          (stiffnessWeight * link.along.stiffness + dampingWeight * link.along.damping - across) * slip.dot(n) * n + across * slip;
       const Vec3 moment = (weigh(link.twisting) - rolling) * spin.dot(n) * n + rolling * spin;
       const Vec3 couple = n.cross(force);
       result[i].head<3>() += mi * force;
@@ -271,9 +276,9 @@ class SpectralLimit {
   const ContactNetwork& network_;
   bool verlet_;
   Integrator integrator_;
-  int most_ = 3000;          // iterations
-  double precise_ = 1e-6;    // by which the quotient still changes in 20 of them
-  double carriedOn_ = 1;     // what springs across count for
+  int most_ = 3000;        // iterations
+  double precise_ = 1e-6;  // by which the quotient still changes in 20 of them
+  double carriedOn_ = 1;   // what springs across count for
   Motion mode_;
 };
 
@@ -314,9 +319,9 @@ ContactNetwork networkOf(const Model& model, std::size_t law, const PairConstant
     const double inverseMass = network.inverseMass[i] + (wall ? 0 : network.inverseMass[j]);
     const double effectiveRadius = wall ? a.radius : 1 / (1 / a.radius + 1 / b.radius);
     const std::size_t partner = wall ? model.walls[contact.wall()].material : material[j];
-    Link link = linkOf(
-        lawFunctions(law).modes(constants.of(material[i] * n + partner), std::max(overlap, 0.0), effectiveRadius, inverseMass),
-        inverseMass, effectiveRadius);
+    Link link =
+        linkOf(lawFunctions(law).modes(constants.of(material[i] * n + partner), std::max(overlap, 0.0), effectiveRadius, inverseMass),
+               inverseMass, effectiveRadius);
     link.first = contact.first;
     link.second = wall ? -1 : contact.second;
     link.normal = contact.branch / distance;

@@ -22,14 +22,14 @@ struct Link {
     double stiffness = 0, damping = 0;
   };
   Spring along, across, rolling, twisting;
-  bool bond = false;               ///< its springs go by the way of the grains, and are not carried on by half a step (B3)
+  bool bond = false;  ///< its springs go by the way of the grains, and are not carried on by half a step (B3)
 };
 
 struct ContactNetwork {
   std::vector<double> inverseMass;     ///< 1/kg, by grain
   std::vector<double> inverseInertia;  ///< 1/(kg m²); 0 where grains do not turn
   std::vector<Link> links;
-  double slowing = 0;                  ///< 1/s: what drag and damping add to 2ζω of any grain
+  double slowing = 0;  ///< 1/s: what drag and damping add to 2ζω of any grain
 };
 
 struct PairConstants;
@@ -43,7 +43,7 @@ struct StiffestMode {
 };
 
 struct StepLimit {
-  double step;     ///< s; infinite where nothing swings
+  double step;  ///< s; infinite where nothing swings
   std::string by;
 };
 

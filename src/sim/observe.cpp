@@ -92,9 +92,10 @@ Ledger Simulation::Impl::ledgerNow() {
 
   const Ledger& before = lastLedger;
   const double motion = ledger.mechanical() - ledger.gravitational - (before.mechanical() - before.gravitational);
-  const double height = ledger.gravitational - before.gravitational - (ledger.inserted - before.inserted) + (ledger.removed - before.removed);
-  turnover += std::max({std::abs(motion), std::abs(height), std::abs(ledger.dissipated() - before.dissipated()),
-                        std::abs(ledger.work() - before.work())});
+  const double height =
+      ledger.gravitational - before.gravitational - (ledger.inserted - before.inserted) + (ledger.removed - before.removed);
+  turnover += std::max(
+      {std::abs(motion), std::abs(height), std::abs(ledger.dissipated() - before.dissipated()), std::abs(ledger.work() - before.work())});
   ledger.turnover = turnover;
   lastLedger = ledger;
   return ledger;
@@ -148,10 +149,10 @@ ContactSummary Simulation::Impl::contactsNow() {
 /// the present alone and can be had at any time without touching the memory.
 struct Simulation::Impl::SeenContact {
   std::size_t i;
-  std::size_t j;           ///< `noGrain` for a wall
-  Contact contact;         ///< as far as normal laws and stored energies read it
+  std::size_t j;    ///< `noGrain` for a wall
+  Contact contact;  ///< as far as normal laws and stored energies read it
   const double* constants;
-  double weight;           ///< share of the law that acts
+  double weight;  ///< share of the law that acts
   double memory[mostMemory];
 };
 
@@ -177,9 +178,13 @@ void Simulation::Impl::visitContacts(Visit&& visit) const {
     for (std::size_t k = 0; k < slab.i.size(); ++k) {
       const auto i = static_cast<std::size_t>(slab.i[k]), j = static_cast<std::size_t>(slab.j[k]);
       const GrainRow &a = state.rows[i], &b = state.rows[j];
-      SeenContact seen{i, static_cast<std::size_t>(slab.grainOf(slab.j[k])), see(positionOf(a) - positionOf(b), slab.touchOf(k, a.radius + b.radius), Vec3(a.vx - b.vx, a.vy - b.vy, a.vz - b.vz),
-                                 1 / (a.inverseMass + b.inverseMass), 1 / (a.inverseRadius + b.inverseRadius)),
-                       constants.of(state.material[i] * n + state.material[j]), 1, {}};
+      SeenContact seen{i,
+                       static_cast<std::size_t>(slab.grainOf(slab.j[k])),
+                       see(positionOf(a) - positionOf(b), slab.touchOf(k, a.radius + b.radius), Vec3(a.vx - b.vx, a.vy - b.vy, a.vz - b.vz),
+                           1 / (a.inverseMass + b.inverseMass), 1 / (a.inverseRadius + b.inverseRadius)),
+                       constants.of(state.material[i] * n + state.material[j]),
+                       1,
+                       {}};
       if (!(seen.contact.overlap > 0)) continue;
       for (std::size_t c = 0; c < components; ++c) seen.memory[c] = slab.memory.at(c, k);
       visit(seen);
@@ -197,9 +202,13 @@ void Simulation::Impl::visitContacts(Visit&& visit) const {
       const double mass = 1 / (row.inverseMass + (body ? 1 / body->mass : 0));
       for (const WallContact& contact : contacts) {
         const Vec3 velocity = place.twist.at(place.pose.toWorld(contact.point));
-        SeenContact seen{g, noGrain, see(contact.distance * (place.pose.rotation * contact.normal), row.radius,
-                                         Vec3(row.vx, row.vy, row.vz) - velocity, mass, row.radius),
-                         constants.of(state.material[g] * n + model.walls[group.wall].material), contact.weight, {}};
+        SeenContact seen{g,
+                         noGrain,
+                         see(contact.distance * (place.pose.rotation * contact.normal), row.radius, Vec3(row.vx, row.vy, row.vz) - velocity,
+                             mass, row.radius),
+                         constants.of(state.material[g] * n + model.walls[group.wall].material),
+                         contact.weight,
+                         {}};
         const auto candidate = std::lower_bound(features.begin(), features.end(), contact.feature) - features.begin();
         std::copy_n(slab.memoryOf(group.first + static_cast<std::int32_t>(candidate)), components, seen.memory);
         visit(seen);

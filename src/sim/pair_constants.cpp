@@ -46,8 +46,7 @@ void checkNeeds(const Model& model, std::size_t a, std::size_t b, const PairValu
   for (const Reading& reading : readings(model.contact)) {
     const Need& need = reading.need;
     if (need.optional || has(values, need.property) || has(values, need.alternative)) continue;
-    const std::string either =
-        need.alternative == need.property ? std::string() : fmt::format(" or {}", infoOf(need.alternative).key);
+    const std::string either = need.alternative == need.property ? std::string() : fmt::format(" or {}", infoOf(need.alternative).key);
     throw Error(ErrorKind::scene, fmt::format("The pair {}–{} lacks {}{}, which the {} law '{}' reads.", model.materials[a].name,
                                               model.materials[b].name, infoOf(need.property).key, either, reading.family, reading.law));
   }

@@ -20,7 +20,9 @@ bool keepsOrientation(const Model& model) { return grainsTurn(model) && (model.o
 
 void checkRotation(const Model& model) {
   if (model.contact.rotation) return;
-  const auto refuse = [](const char* what, const char* hint) { throw Error(ErrorKind::scene, fmt::format("Rotation is switched off, and {}.", what), hint); };
+  const auto refuse = [](const char* what, const char* hint) {
+    throw Error(ErrorKind::scene, fmt::format("Rotation is switched off, and {}.", what), hint);
+  };
   if (model.contact.rolling != "none") refuse("rolling resistance is about nothing else", "rolling = \"none\"");
   if (model.contact.twisting != "none") refuse("twisting resistance is about nothing else", "twisting = \"none\"");
   if (!model.bonds.empty()) refuse("bonds bend and twist", "leave rotation out");
@@ -44,9 +46,11 @@ void checkIntegrator(const Model& model) {
   const std::string hint = "choose another integrator";
   for (const auto& pass : makePasses(model))
     if (!pass->evaluatesAnew())
-      throw Error(ErrorKind::scene, fmt::format("Runge-Kutta evaluates all forces four times in a step, which '{}' cannot.", pass->name()), hint);
+      throw Error(ErrorKind::scene, fmt::format("Runge-Kutta evaluates all forces four times in a step, which '{}' cannot.", pass->name()),
+                  hint);
   for (const Wall& wall : model.walls)
-    if (wall.body) throw Error(ErrorKind::scene, fmt::format("Runge-Kutta does not move walls under load, as wall '{}' is.", wall.name), hint);
+    if (wall.body)
+      throw Error(ErrorKind::scene, fmt::format("Runge-Kutta does not move walls under load, as wall '{}' is.", wall.name), hint);
 }
 
 namespace {
@@ -61,7 +65,8 @@ void checkSingleRange(double smallest, double largest) {
   const std::string radii = smallest == largest ? fmt::format("A radius of {:.3g} m is", smallest)
                                                 : fmt::format("Radii from {:.3g} to {:.3g} m are", smallest, largest);
   throw Error(ErrorKind::scene,
-              fmt::format("{} outside of what single precision can do: {:g} m to {:g} m.", radii, smallestSingle, largestSingle), std::string(withoutIt));
+              fmt::format("{} outside of what single precision can do: {:g} m to {:g} m.", radii, smallestSingle, largestSingle),
+              std::string(withoutIt));
 }
 
 }  // namespace
@@ -72,8 +77,8 @@ void checkPrecision(Precision precision, const ContactChoice& contact, Integrato
   if (!hasSingleKernel(law)) {
     const LawFunctions& functions = lawFunctions(law);
     throw Error(ErrorKind::scene,
-                fmt::format("The laws {}, {}, {} and {} (normal, tangential, rolling, twisting) are there in double precision alone.", functions.names[0],
-                            functions.names[1], functions.names[2], functions.names[3]),
+                fmt::format("The laws {}, {}, {} and {} (normal, tangential, rolling, twisting) are there in double precision alone.",
+                            functions.names[0], functions.names[1], functions.names[2], functions.names[3]),
                 std::string(withoutIt));
   }
   if (integrator == Integrator::rungeKutta)

@@ -55,8 +55,10 @@ Plan Simulation::plan(const Model& model) {
   for (const auto& pass : makePasses(model)) plan.passes.push_back(pass->name());
   plan.passes.push_back(fmt::format("integrate: {}", scheme.name));
 
-  plan.bytesPerGrain = sizeof(GrainRow) + sizeof(ForceRow) + (kept ? sizeof(HalfStepRow) : 0) + (previous ? sizeof(PlaceRow) : 0) + (keepsOrientation(model) ? sizeof(Quat) + sizeof(AngleRow) : 0) +
-                       (model.heat ? 2 * sizeof(double) : 0) + sizeof(std::uint16_t) + sizeof(std::uint32_t) + (model.counters.empty() ? 0 : sizeof(std::uint32_t)) + sizeof(Vec3) + 2 * sizeof(float);
+  plan.bytesPerGrain = sizeof(GrainRow) + sizeof(ForceRow) + (kept ? sizeof(HalfStepRow) : 0) + (previous ? sizeof(PlaceRow) : 0) +
+                       (keepsOrientation(model) ? sizeof(Quat) + sizeof(AngleRow) : 0) + (model.heat ? 2 * sizeof(double) : 0) +
+                       sizeof(std::uint16_t) + sizeof(std::uint32_t) + (model.counters.empty() ? 0 : sizeof(std::uint32_t)) + sizeof(Vec3) +
+                       2 * sizeof(float);
   plan.bytesPerGrain += mixed ? sizeof(SingleRow) + sizeof(SingleForceRow) : 0;
   plan.bytesPerContact = static_cast<std::size_t>(traits.stateSize) * (mixed ? sizeof(float) : sizeof(double));
   plan.bytesPerListedPair = (traits.stateSize > 0 ? 5 : 4) * sizeof(std::int32_t);

@@ -13,13 +13,20 @@ enum class ProfilePart { pairs, walls, other, motion, lists, population, count }
 
 constexpr std::string_view nameOf(ProfilePart part) {
   switch (part) {
-    case ProfilePart::pairs: return "contacts of grains";
-    case ProfilePart::walls: return "contacts with walls";
-    case ProfilePart::other: return "other forces";
-    case ProfilePart::motion: return "motion";
-    case ProfilePart::lists: return "neighbour lists";
-    case ProfilePart::population: return "arrivals and departures";
-    case ProfilePart::count: break;
+    case ProfilePart::pairs:
+      return "contacts of grains";
+    case ProfilePart::walls:
+      return "contacts with walls";
+    case ProfilePart::other:
+      return "other forces";
+    case ProfilePart::motion:
+      return "motion";
+    case ProfilePart::lists:
+      return "neighbour lists";
+    case ProfilePart::population:
+      return "arrivals and departures";
+    case ProfilePart::count:
+      break;
   }
   return "";
 }

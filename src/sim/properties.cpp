@@ -6,8 +6,10 @@ std::span<const PropertyInfo, propertyCount> propertyTable() {
   constexpr double big = 1e30;
   static constexpr std::array<PropertyInfo, propertyCount> table{{
       {Property::density, Scope::material, "density", "ρ", "kg/m^3", 1e-6, big, "Mass per volume of the grain itself."},
-      {Property::youngModulus, Scope::material, "young_modulus", "E", "Pa", 1e-6, big, "Young's modulus, for contacts of hertz and mindlin."},
-      {Property::poissonRatio, Scope::material, "poisson_ratio", "ν", "", -0.999, 0.5, "Poisson's ratio, for contacts of hertz and mindlin."},
+      {Property::youngModulus, Scope::material, "young_modulus", "E", "Pa", 1e-6, big,
+       "Young's modulus, for contacts of hertz and mindlin."},
+      {Property::poissonRatio, Scope::material, "poisson_ratio", "ν", "", -0.999, 0.5,
+       "Poisson's ratio, for contacts of hertz and mindlin."},
       {Property::normalStiffness, Scope::pair, "normal_stiffness", "k_n", "N/m", 1e-12, big, "Spring constant along the line of centres."},
       {Property::tangentialStiffness, Scope::pair, "tangential_stiffness", "k_t", "N/m", 0, big,
        "Spring constant of the sticking contact; 2/7 of the normal one when absent."},
@@ -18,7 +20,8 @@ std::span<const PropertyInfo, propertyCount> propertyTable() {
        "Tangential dashpot per effective mass, η_t = m* γ_t; when absent the damping ratio of the normal contact is used."},
       {Property::tangentialDampingFactor, Scope::pair, "tangential_damping_factor", "f", "", 0, 1e6,
        "η_t over η_n √(k_t/k_n); √(2/7) when absent: the damping ratio of the normal contact."},
-      {Property::friction, Scope::pair, "friction", "μ", "", 0, 1e9, "Coulomb coefficient: the tangential force is at most μ times the normal one."},
+      {Property::friction, Scope::pair, "friction", "μ", "", 0, 1e9,
+       "Coulomb coefficient: the tangential force is at most μ times the normal one."},
       {Property::rollingFriction, Scope::pair, "rolling_friction", "μ_r", "", 0, 1e9,
        "Rolling resistance: the torque is at most μ_r R* times the normal force."},
       {Property::rollingDamping, Scope::pair, "rolling_damping", "ζ_r", "", 0, 1e3,

@@ -11,8 +11,8 @@ namespace tsubu::sim {
 
 namespace {
 
-// Neighbour lists: the steps that a skin is to last, and its bounds in terms of the smallest radius. Magnets reach farther by it, and lists of
-// them are longer. Then the share of it that belongs to the inner lists, and the bounds of that in terms of the radius.
+// Neighbour lists: the steps that a skin is to last, and its bounds in terms of the smallest radius. Magnets reach farther by it, and lists
+// of them are longer. Then the share of it that belongs to the inner lists, and the bounds of that in terms of the radius.
 constexpr double skinSteps = 250, leastSkin = 0.1, mostSkin = 1.3, mostSkinOfMagnets = 0.6;
 constexpr double usualInnerShare = 0.1, mostInnerShare = 0.5, leastInner = 0.01, mostInner = 0.15;
 // A little more than 1: what is rounded to a single number is then not too small.
@@ -68,7 +68,8 @@ void Simulation::Impl::giveSkins() {
   if (state.size() == 0) smallest = largest = 1;
   SkinRule rule{skinSteps * model.timeStep, leastSkin * smallest, (model.magnets ? mostSkinOfMagnets : mostSkin) * smallest};
   if (model.skin > 0) rule.least = rule.most = 0.5 * model.skin;
-  const bool moves = !moving.empty() || std::any_of(model.walls.begin(), model.walls.end(), [](const Wall& wall) { return !wall.motion.still(); });
+  const bool moves =
+      !moving.empty() || std::any_of(model.walls.begin(), model.walls.end(), [](const Wall& wall) { return !wall.motion.still(); });
   wallSkin = moves ? std::clamp(skinSteps * std::max(wallStep, bodyStep), rule.least, rule.most) : 0;
   // In a periodic domain no pair may be listed twice: half a period is as far as lists may reach.
   for (int axis = 0; axis < 3; ++axis)
@@ -76,7 +77,8 @@ void Simulation::Impl::giveSkins() {
   rule.least = std::min(rule.least, rule.most);
   state.skin = chooseSkins(state.rows, rule);
   largestSkin = state.skin.empty() ? 0.0 : static_cast<double>(*std::max_element(state.skin.begin(), state.skin.end()));
-  innerShare = std::min({std::max(usualInnerShare, leastInner * smallest / rule.least), mostInnerShare, mostInner * smallest / largestSkin});
+  innerShare =
+      std::min({std::max(usualInnerShare, leastInner * smallest / rule.least), mostInnerShare, mostInner * smallest / largestSkin});
 }
 
 // Grains that have left a periodic domain go on at its other end. Under gravity that is work (E5): they may fall for ever.

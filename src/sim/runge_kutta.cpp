@@ -169,7 +169,8 @@ void RungeKutta::startSlab(const State& state, std::int32_t first, std::int32_t 
     const auto k = static_cast<std::size_t>(g);
     const GrainRow& row = state.rows[k];
     grains_[k] = GrainStages{};
-    grains_[k].start = {row.position(), row.velocity(), row.surfaceSpin(), state.keepsOrientation ? state.orientation[k] : Quat::Identity()};
+    grains_[k].start = {row.position(), row.velocity(), row.surfaceSpin(),
+                        state.keepsOrientation ? state.orientation[k] : Quat::Identity()};
   }
 }
 

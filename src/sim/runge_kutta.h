@@ -86,10 +86,10 @@ class RungeKutta {
   int stateSize_;
   unsigned odd_;
   std::vector<GrainStages> grains_;
-  std::vector<MemoryStages> pairs_, walls_;   // by slab
-  std::vector<SlabWalls> wallsBefore_;        // before the first evaluation
-  std::vector<SlabWalls> wallsAtStart_;       // after it: which candidates touch at the start of the step
-  std::vector<double> wallWork_;              // by slab, J: of this step so far
+  std::vector<MemoryStages> pairs_, walls_;  // by slab
+  std::vector<SlabWalls> wallsBefore_;       // before the first evaluation
+  std::vector<SlabWalls> wallsAtStart_;      // after it: which candidates touch at the start of the step
+  std::vector<double> wallWork_;             // by slab, J: of this step so far
 };
 
 }  // namespace tsubu::sim

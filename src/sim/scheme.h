@@ -17,12 +17,18 @@ struct Scheme {
 
 constexpr Scheme schemeOf(Integrator integrator) {
   switch (integrator) {
-    case Integrator::velocityVerlet: return {"velocity Verlet", 0.5, 0.5, 0.5, 1};
-    case Integrator::explicitEuler: return {"explicit Euler", 0, 0, 0, 2};
-    case Integrator::leapfrog: return {"leapfrog", 1, 0.5, 0, 2};
-    case Integrator::centralDifferences: return {"central differences", 1, 0.5, 0, 2};
-    case Integrator::rungeKutta: return {"Runge-Kutta", 0, 0, 0, 2.785293563405282};
-    case Integrator::symplecticEuler: break;
+    case Integrator::velocityVerlet:
+      return {"velocity Verlet", 0.5, 0.5, 0.5, 1};
+    case Integrator::explicitEuler:
+      return {"explicit Euler", 0, 0, 0, 2};
+    case Integrator::leapfrog:
+      return {"leapfrog", 1, 0.5, 0, 2};
+    case Integrator::centralDifferences:
+      return {"central differences", 1, 0.5, 0, 2};
+    case Integrator::rungeKutta:
+      return {"Runge-Kutta", 0, 0, 0, 2.785293563405282};
+    case Integrator::symplecticEuler:
+      break;
   }
   return {"symplectic Euler", 1, 0, 0, 2};
 }

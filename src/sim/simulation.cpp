@@ -96,8 +96,10 @@ void Simulation::Impl::warnOfWalls() {
       const double low = bounds.min()[axis] - model.domain.min()[axis], high = model.domain.max()[axis] - bounds.max()[axis];
       const auto endsThere = [&](double inside) { return -2 * largest < inside && inside < largest; };
       if (endsThere(low) || endsThere(high))
-        warnings.push_back(fmt::format("Wall '{}' ends near the periodic boundary along {}; walls are not repeated: let it go on beyond the domain "
-                                       "by {:.3g} m.", wall.name, "xyz"[axis], 2 * largest));
+        warnings.push_back(
+            fmt::format("Wall '{}' ends near the periodic boundary along {}; walls are not repeated: let it go on beyond the domain "
+                        "by {:.3g} m.",
+                        wall.name, "xyz"[axis], 2 * largest));
     }
   }
 }
@@ -120,8 +122,16 @@ void Simulation::Impl::prepareState() {
 }
 
 PassContext Simulation::Impl::context(PairClass pairClass, bool oneClass) {
-  return {state.rows.data(), state.forces.data(), state.single.data(), state.singleForces.data(), state.material.data(), model.materials.size(),
-          oneClass ? constants.of(pairClass.first) : constants.values.data(), stepOf(), observed, state.size() > fitsCache};
+  return {state.rows.data(),
+          state.forces.data(),
+          state.single.data(),
+          state.singleForces.data(),
+          state.material.data(),
+          model.materials.size(),
+          oneClass ? constants.of(pairClass.first) : constants.values.data(),
+          stepOf(),
+          observed,
+          state.size() > fitsCache};
 }
 
 StepOf Simulation::Impl::stepOf() const {
@@ -133,7 +143,19 @@ StepOf Simulation::Impl::stepOf() const {
 }
 
 World Simulation::Impl::world(double t, double share) {
-  return {model, state, slabs, pairs, periods, walls, team, gravity.now(), 2 * largestSkin, t, stepOf(), model.timeStep, share,
+  return {model,
+          state,
+          slabs,
+          pairs,
+          periods,
+          walls,
+          team,
+          gravity.now(),
+          2 * largestSkin,
+          t,
+          stepOf(),
+          model.timeStep,
+          share,
           [this](std::int32_t i, std::int32_t j) { return contactEnergyOf(static_cast<std::size_t>(i), static_cast<std::size_t>(j)); }};
 }
 
@@ -184,8 +206,8 @@ bool Simulation::Impl::contactsActAlone() const {
   return passes.empty() && moving.empty() && !rungeKutta && !pairs.hasImages() && firstArrival == state.nextId;
 }
 
-// Forces of all contacts, with what they put into the accounts (`last`). Where contacts act alone, a step moves a slab as soon as its forces
-// are complete, while it lies in the cache.
+// Forces of all contacts, with what they put into the accounts (`last`). Where contacts act alone, a step moves a slab as soon as its
+// forces are complete, while it lies in the cache.
 void Simulation::Impl::evaluateContacts(For whom) {
   if (model.precision == Precision::mixed)
     evaluateContactsIn<float>(whom, singleStages);
@@ -199,7 +221,8 @@ std::vector<double> Simulation::Impl::workOfSlabs() const {
   std::vector<double> work;
   for (int slab = 0; slab < slabs.count(); ++slab) {
     const auto s = static_cast<std::size_t>(slab);
-    work.push_back(static_cast<double>(slabs.end(slab) - slabs.begin(slab)) + static_cast<double>(pairs.slabs()[s].i.size() + walls.slabs()[s].groups.size()));
+    work.push_back(static_cast<double>(slabs.end(slab) - slabs.begin(slab)) +
+                   static_cast<double>(pairs.slabs()[s].i.size() + walls.slabs()[s].groups.size()));
   }
   return work;
 }
@@ -220,14 +243,19 @@ void Simulation::Impl::evaluateContactsIn(For whom, std::vector<StageIn<Real>>& 
     StageIn<Real>& stage = pairStages[static_cast<std::size_t>(thread)];
     Profile::Lap lap(profile, ProfilePart::pairs, thread);
     PairLists::refreshImages(state, list);
-    const PairRangeIn<Real> range{list.i.data(), list.j.data(), static_cast<std::int64_t>(list.i.size()), list.memory.columns<Real>(),
-                                  list.memory.stride(), list.touch.empty() ? nullptr : list.touch.data()};
+    const PairRangeIn<Real> range{list.i.data(),
+                                  list.j.data(),
+                                  static_cast<std::int64_t>(list.i.size()),
+                                  list.memory.columns<Real>(),
+                                  list.memory.stride(),
+                                  list.touch.empty() ? nullptr : list.touch.data()};
     if (noting)
       passNoting(onPairs.kernel, grainsWorld, range, traits.rolls, stage, last[s], acting[s]);
     else
       onPairs.kernel(grainsWorld, range, stage, last[s]);
     lap.next(ProfilePart::walls);
-    walls.evaluateSlab(slab, wallsWorld, onWalls.kernel, accountsKnown, stages[static_cast<std::size_t>(thread)], last[s], noting ? &acting[s] : nullptr);
+    walls.evaluateSlab(slab, wallsWorld, onWalls.kernel, accountsKnown, stages[static_cast<std::size_t>(thread)], last[s],
+                       noting ? &acting[s] : nullptr);
   };
   moved = whom == For::step && contactsActAlone();
   motions.assign(static_cast<std::size_t>(count), Motion{});
@@ -278,7 +306,8 @@ void Simulation::Impl::loadMovingWalls() {
 void Simulation::Impl::moveSlab(int slab, int thread) {
   const Profile::Lap lap(profile, ProfilePart::motion, thread);
   const bool turn = (steps + 1) % turnInterval == 0;
-  motions[static_cast<std::size_t>(slab)] = integrate(state, slabs.begin(slab), slabs.end(slab), gravity.now(), kickStep(), turn, state.mixed && moved);
+  motions[static_cast<std::size_t>(slab)] =
+      integrate(state, slabs.begin(slab), slabs.end(slab), gravity.now(), kickStep(), turn, state.mixed && moved);
 }
 
 Motion Simulation::Impl::moveBySlabs() {
@@ -329,7 +358,8 @@ void Simulation::Impl::move() {
   if (changing) finishChange();
   const bool far = !(most.travel2 <= model.watch.travelLimit * model.watch.travelLimit);
   if (model.continuous && !(fastest * model.timeStep <= hardShare() * smallestRadius)) fastest = std::max(fastest, sweep(model.timeStep));
-  for (int slab = 0; slab < slabs.count(); ++slab) drift.add(slab, std::sqrt(motions[static_cast<std::size_t>(slab)].haste2) * model.timeStep);
+  for (int slab = 0; slab < slabs.count(); ++slab)
+    drift.add(slab, std::sqrt(motions[static_cast<std::size_t>(slab)].haste2) * model.timeStep);
   ++steps;
   grainSteps += state.size();
   forcesKnown = false;
@@ -411,7 +441,9 @@ const Counts& Simulation::counts() const { return impl_->counts; }
 const std::vector<LostGrain>& Simulation::lostGrains() const { return impl_->lost; }
 const std::vector<std::string>& Simulation::warnings() const { return impl_->warnings; }
 std::uint64_t Simulation::grainSteps() const { return impl_->grainSteps; }
-double Simulation::threadsUsed() const { return static_cast<double>(impl_->threadSteps) / std::max(1.0, static_cast<double>(impl_->steps)); }
+double Simulation::threadsUsed() const {
+  return static_cast<double>(impl_->threadSteps) / std::max(1.0, static_cast<double>(impl_->steps));
+}
 Ledger Simulation::ledger() { return impl_->ledgerNow(); }
 ContactSummary Simulation::contacts() { return impl_->contactsNow(); }
 std::vector<WallState> Simulation::movingWalls() { return impl_->movingWallsNow(); }

@@ -20,9 +20,9 @@ struct Counts {
   std::uint64_t removed = 0;
   std::uint64_t lost = 0;
   std::vector<std::int64_t> crossed;  ///< per counter
-  std::uint64_t bonds = 0;   ///< that hold
-  std::uint64_t broken = 0;  ///< that have broken so far
-  std::uint64_t impacts = 0; ///< hard ones, of continuous collisions
+  std::uint64_t bonds = 0;            ///< that hold
+  std::uint64_t broken = 0;           ///< that have broken so far
+  std::uint64_t impacts = 0;          ///< hard ones, of continuous collisions
 };
 
 struct LostGrain {
@@ -47,12 +47,12 @@ struct WallState {
 
 /// What is modelled and what it costs; printed by `tsubu explain`.
 struct Plan {
-  std::vector<std::string> passes;      ///< in the order of the step
+  std::vector<std::string> passes;  ///< in the order of the step
   std::vector<std::string> modelled;
   std::vector<std::string> notModelled;
   std::size_t bytesPerGrain = 0;
-  std::size_t bytesPerContact = 0;      ///< memory that the laws keep for a contact
-  std::size_t bytesPerListedPair = 0;   ///< neighbour lists
+  std::size_t bytesPerContact = 0;     ///< memory that the laws keep for a contact
+  std::size_t bytesPerListedPair = 0;  ///< neighbour lists
 };
 
 class Simulation {
@@ -71,8 +71,8 @@ class Simulation {
 
   double time() const;
   double timeStep() const;
-  /// Steps have this length (s) from the second one on that is taken after this; the next one still has the old length, its forces being known.
-  /// Throws Error(scene) where the integrator has steps of one length only.
+  /// Steps have this length (s) from the second one on that is taken after this; the next one still has the old length, its forces being
+  /// known. Throws Error(scene) where the integrator has steps of one length only.
   void setTimeStep(double dt);
   std::uint64_t steps() const;
   std::size_t grains() const;
@@ -92,7 +92,8 @@ class Simulation {
   /// Contacts and bonds of the present instant as springs and dashpots, and the longest step that they bear (S8); need `contactForces`.
   ContactNetwork network();
   StepLimit stableStep();
-  /// Hash over the grains in the order of their ids (position, velocity, orientation where it is kept) and the contact memory; equal for equal bits.
+  /// Hash over the grains in the order of their ids (position, velocity, orientation where it is kept) and the contact memory; equal for
+  /// equal bits.
   std::uint64_t stateHash();
 
   /// From here on, where the time of the steps goes. The results do not depend on it.

@@ -11,11 +11,11 @@
 #include "sim/fields/gravity.h"
 #include "sim/integrate.h"
 #include "sim/kernel/kernels.h"
-#include "sim/network.h"
 #include "sim/neighbours/cell_grid.h"
 #include "sim/neighbours/drift.h"
 #include "sim/neighbours/pair_lists.h"
 #include "sim/neighbours/slabs.h"
+#include "sim/network.h"
 #include "sim/pair_constants.h"
 #include "sim/pass.h"
 #include "sim/profile.h"
@@ -71,41 +71,41 @@ class Simulation::Impl {
   CellGrid grid;
   PairLists pairs;
   WallPass walls;
-  std::vector<MovingWall> moving;                   ///< walls that move under load
-  std::vector<ContactMode> contactsOfMoving;        ///< the stiffest that each can have, for a mass of 1 kg
+  std::vector<MovingWall> moving;                  ///< walls that move under load
+  std::vector<ContactMode> contactsOfMoving;       ///< the stiffest that each can have, for a mass of 1 kg
   std::vector<std::unique_ptr<ForcePass>> passes;  ///< beside contacts
-  std::optional<RungeKutta> rungeKutta;        ///< when it is the integrator
-  std::vector<Stage> stages;                   ///< one per thread
-  std::vector<StageIn<float>> singleStages;    ///< of pairs, with mixed precision
+  std::optional<RungeKutta> rungeKutta;            ///< when it is the integrator
+  std::vector<Stage> stages;                       ///< one per thread
+  std::vector<StageIn<float>> singleStages;        ///< of pairs, with mixed precision
   Profile profile;
-  std::vector<Accounts> last;                  ///< one per slab: this step's
+  std::vector<Accounts> last;                      ///< one per slab: this step's
   std::vector<std::vector<ActingContact>> acting;  ///< one per slab: the contacts of the present instant, noted for an observer
-  std::array<double, Accounts::kinds> total{};  ///< dissipated so far
+  std::array<double, Accounts::kinds> total{};     ///< dissipated so far
 
-  double largestSkin = 0;                   ///< m
-  double innerShare = 0;                    ///< of the skins, what belongs to the inner lists
-  double fastest = 0;                       ///< m/s: in the last step
-  Drift drift;                              ///< how far grains have gone since the lists were made
-  double wallSkin = 0, wallTravel = 0;      ///< m: how far walls may go before the lists must be made anew, and have gone
-  double wallStep = 0, bodyStep = 0;        ///< m: how far any may go in the present step; those under load went in the last
+  double largestSkin = 0;               ///< m
+  double innerShare = 0;                ///< of the skins, what belongs to the inner lists
+  double fastest = 0;                   ///< m/s: in the last step
+  Drift drift;                          ///< how far grains have gone since the lists were made
+  double wallSkin = 0, wallTravel = 0;  ///< m: how far walls may go before the lists must be made anew, and have gone
+  double wallStep = 0, bodyStep = 0;    ///< m: how far any may go in the present step; those under load went in the last
   bool rebuildNeeded = true;
-  std::vector<int> due;                     ///< the inner lists that do not hold at the present instant, unless all are new
+  std::vector<int> due;  ///< the inner lists that do not hold at the present instant, unless all are new
 
   std::uint64_t steps = 0;
-  double since = 0;                         ///< s: steps have had this length from here on
+  double since = 0;  ///< s: steps have had this length from here on
   std::uint64_t stepsSince = 0;
-  double nextTimeStep = 0;                  ///< s: asked for; 0: none
-  bool changing = false;                    ///< the present step goes over to it
-  StiffestMode stiffest;                    ///< of the network, as it was found last
+  double nextTimeStep = 0;  ///< s: asked for; 0: none
+  bool changing = false;    ///< the present step goes over to it
+  StiffestMode stiffest;    ///< of the network, as it was found last
   std::uint64_t grainSteps = 0, threadSteps = 0;
   std::optional<ThreadChoice> choice;
   std::uint64_t stepsBetweenArrivals = 1;
-  std::uint64_t turnInterval = turnEvery;   ///< steps between updates of the orientations; magnets need them all
+  std::uint64_t turnInterval = turnEvery;  ///< steps between updates of the orientations; magnets need them all
   bool forcesKnown = false;
-  bool moved = false;                       ///< the step's grains have been moved in the pass over their contacts
-  bool accountsKnown = false;               ///< the last pass kept accounts of what is dissipated
-  bool observed = false;                    ///< and of what is stored, and how deep contacts are
-  std::vector<Motion> motions;              ///< one per slab
+  bool moved = false;                           ///< the step's grains have been moved in the pass over their contacts
+  bool accountsKnown = false;                   ///< the last pass kept accounts of what is dissipated
+  bool observed = false;                        ///< and of what is stored, and how deep contacts are
+  std::vector<Motion> motions;                  ///< one per slab
   std::vector<std::int32_t> placeAfterRemoval;  ///< old place → place after removals that the lists do not know yet; empty: none
 
   Counts counts;
@@ -114,8 +114,8 @@ class Simulation::Impl {
   std::vector<StreamProgress> streams;
   double insertedEnergy = 0, removedEnergy = 0;
   double hardRate = 0, smallestRadius = std::numeric_limits<double>::infinity();  ///< C1: radii per second; m
-  double impactWork = 0;  ///< J: of moving walls on grains that they hit hard
-  double wrapWork = 0;  ///< J: what gravity gets for grains that go on at the other end of a periodic domain
+  double impactWork = 0;                                                          ///< J: of moving walls on grains that they hit hard
+  double wrapWork = 0;             ///< J: what gravity gets for grains that go on at the other end of a periodic domain
   std::uint32_t firstArrival = 0;  ///< id: grains from here on have come in the present step
   double insertedHeat = 0, removedHeat = 0;
   double initialEnergy = 0, turnover = 0;

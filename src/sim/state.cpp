@@ -13,10 +13,11 @@ void State::add(const Grain& grain, double density, const Vec3& gravity, double 
   const bool seesHalfSteps = integrator == Integrator::leapfrog || integrator == Integrator::centralDifferences;
   const Vec3& v = seesHalfSteps ? before : grain.velocity;
   const Vec3 s = turns ? Vec3(grain.radius * grain.angularVelocity) : Vec3(Vec3::Zero());
-  rows.push_back({x.x(), x.y(), x.z(), grain.radius, v.x(), v.y(), v.z(), 1 / massOf(density, grain.radius), s.x(), s.y(), s.z(),
-                  1 / grain.radius});
+  rows.push_back(
+      {x.x(), x.y(), x.z(), grain.radius, v.x(), v.y(), v.z(), 1 / massOf(density, grain.radius), s.x(), s.y(), s.z(), 1 / grain.radius});
   if (integrator == Integrator::velocityVerlet) half.push_back({before.x(), before.y(), before.z(), 0, s.x(), s.y(), s.z(), 0});
-  if (integrator == Integrator::centralDifferences) previous.push_back({x.x() - dt * before.x(), x.y() - dt * before.y(), x.z() - dt * before.z(), 0});
+  if (integrator == Integrator::centralDifferences)
+    previous.push_back({x.x() - dt * before.x(), x.y() - dt * before.y(), x.z() - dt * before.z(), 0});
   if (keepsOrientation) {
     orientation.push_back(grain.orientation.normalized());
     turned.push_back({});
@@ -88,8 +89,9 @@ void State::clearForces() {
 namespace {
 SingleRow singleOf(const GrainRow& row) {
   const auto narrow = [](double value) { return static_cast<float>(value); };
-  return {row.x,          row.y,          row.z,          row.radius,     narrow(row.vx),   narrow(row.vy),
-          narrow(row.vz), narrow(row.inverseMass), narrow(row.sx), narrow(row.sy), narrow(row.sz), narrow(row.inverseRadius)};
+  return {row.x,          row.y,          row.z,          row.radius,
+          narrow(row.vx), narrow(row.vy), narrow(row.vz), narrow(row.inverseMass),
+          narrow(row.sx), narrow(row.sy), narrow(row.sz), narrow(row.inverseRadius)};
 }
 }  // namespace
 

@@ -16,20 +16,20 @@ namespace tsubu::sim {
 struct State {
   std::vector<GrainRow> rows;
   std::vector<ForceRow> forces;
-  std::vector<SingleRow> single;         ///< mixed precision: the rows, as contacts between grains read them
+  std::vector<SingleRow> single;             ///< mixed precision: the rows, as contacts between grains read them
   std::vector<SingleForceRow> singleForces;  ///< and what these contacts have done, beside `forces`
-  std::vector<HalfStepRow> half;         ///< velocity Verlet
-  std::vector<PlaceRow> previous;        ///< central differences: positions one step ago
-  std::vector<Quat> orientation;         ///< empty unless it is kept; as it was when `turned` was last zero
-  std::vector<AngleRow> turned;          ///< ∫ω dt since then: orientations only show, and are brought up to date every few steps
+  std::vector<HalfStepRow> half;             ///< velocity Verlet
+  std::vector<PlaceRow> previous;            ///< central differences: positions one step ago
+  std::vector<Quat> orientation;             ///< empty unless it is kept; as it was when `turned` was last zero
+  std::vector<AngleRow> turned;              ///< ∫ω dt since then: orientations only show, and are brought up to date every few steps
   std::vector<std::uint16_t> material;
-  std::vector<double> temperature;       ///< K; empty unless heat is modelled
-  std::vector<double> warming;           ///< K, in the present step
+  std::vector<double> temperature;  ///< K; empty unless heat is modelled
+  std::vector<double> warming;      ///< K, in the present step
   std::vector<std::uint32_t> id;
-  std::vector<std::uint32_t> sides;      ///< bit c: on the positive side of counter c; empty without counters
-  std::vector<Vec3> reference;           ///< positions at the last rebuild of the outer lists
-  std::vector<float> skin, perSkin2;     ///< m, 1/m²: see neighbours/skins.h
-  std::vector<Vec3> wrap;                ///< what the last rebuild added to the positions; empty unless the domain is periodic
+  std::vector<std::uint32_t> sides;   ///< bit c: on the positive side of counter c; empty without counters
+  std::vector<Vec3> reference;        ///< positions at the last rebuild of the outer lists
+  std::vector<float> skin, perSkin2;  ///< m, 1/m²: see neighbours/skins.h
+  std::vector<Vec3> wrap;             ///< what the last rebuild added to the positions; empty unless the domain is periodic
 
   Integrator integrator = Integrator::symplecticEuler;
   bool mixed = false;  ///< precision

@@ -28,7 +28,7 @@ struct Impact {
   double time = never;        // s, in the step
   std::int32_t partner = -1;  // a grain by place, or −1 − wall
   Vec3 normal = Vec3::UnitZ();
-  double arm = 1;             // lever arms over radii: below 1 where they overlap already
+  double arm = 1;  // lever arms over radii: below 1 where they overlap already
   auto before(const Impact& other, std::uint32_t own, std::uint32_t others) const {
     return std::tie(time, own) < std::tie(other.time, others);
   }
@@ -113,7 +113,9 @@ class Simulation::Impl::Sweep {
   // The grid finds who has gone little since the lists were made; the others are tried by everybody.
   void noteFar(std::size_t m) {
     const Mover& mover = movers_[m];
-    if (mover.u.norm() * dt_ > sim_.model.watch.travelLimit * row(mover.grain).radius && std::find(far_.begin(), far_.end(), m) == far_.end()) far_.push_back(m);
+    if (mover.u.norm() * dt_ > sim_.model.watch.travelLimit * row(mover.grain).radius &&
+        std::find(far_.begin(), far_.end(), m) == far_.end())
+      far_.push_back(m);
   }
 
   // C1: springs deal with what approaches by less than the share of the radius in a step.
@@ -129,7 +131,8 @@ class Simulation::Impl::Sweep {
     const double around = r + half + sim_.largestSkin + sim_.model.watch.travelLimit * largest_;
     const Vec3 inside = sim_.periods.wrapped(middle);
     sim_.grid.near(inside, around, mover.grain, near_);
-    sim_.periods.forImages(inside, sim_.grid.farthest(around), [&](int shift) { sim_.grid.near(inside + sim_.periods.shift(shift), around, mover.grain, near_); });
+    sim_.periods.forImages(inside, sim_.grid.farthest(around),
+                           [&](int shift) { sim_.grid.near(inside + sim_.periods.shift(shift), around, mover.grain, near_); });
     for (const std::size_t other : far_)
       if (other != m) near_.push_back(movers_[other].grain);
     for (const std::int32_t j : near_) {
@@ -172,7 +175,9 @@ class Simulation::Impl::Sweep {
     const bool still = wall.motion.still();
     const double speed = mover.u.norm(), t0 = mover.since;
     double wallSpeed = 0;
-    if (!still) wallSpeed = wall.motion.maxSpeed(plane ? Box(mover.x - Vec3::Constant(r), mover.x + Vec3::Constant(r)) : surface.bounds(), start_ + t0, start_ + dt_);
+    if (!still)
+      wallSpeed = wall.motion.maxSpeed(plane ? Box(mover.x - Vec3::Constant(r), mover.x + Vec3::Constant(r)) : surface.bounds(),
+                                       start_ + t0, start_ + dt_);
     const Pose fixed = wall.motion.at(start_);
     const auto localAt = [&](double t) { return (still ? fixed : wall.motion.at(start_ + t)).toLocal(mover.x + (t - t0) * mover.u); };
     surface.candidates(localAt(0.5 * (t0 + end)), r + (0.5 * speed + wallSpeed) * (end - t0) + piece * r, features_);
@@ -185,7 +190,8 @@ class Simulation::Impl::Sweep {
       double most = 0;
       for (const WallContact& contact : contacts) {
         const Vec3 n = pose.rotation * contact.normal;
-        const double approach = -(mover.u - (still ? Vec3(Vec3::Zero()) : wall.motion.velocityAt(pose.toWorld(contact.point), start_ + t))).dot(n);
+        const double approach =
+            -(mover.u - (still ? Vec3(Vec3::Zero()) : wall.motion.velocityAt(pose.toWorld(contact.point), start_ + t))).dot(n);
         if (approach > most && hard(approach, r)) most = approach, normal = n, arm = contact.distance / r;
       }
       return most > 0;
@@ -211,7 +217,8 @@ class Simulation::Impl::Sweep {
     const PropertyValues& pair = sim_.model.pairs.at(a, b);
     if (pair.has(Property::restitution)) return pair[Property::restitution];
     const double stiffness = pair.valueOr(Property::normalStiffness, 0);
-    return restitutionOf(0.5 * pair.valueOr(Property::normalDampingRate, 0) / std::sqrt(stiffness * inverseMass), sim_.model.contact.tension);
+    return restitutionOf(0.5 * pair.valueOr(Property::normalDampingRate, 0) / std::sqrt(stiffness * inverseMass),
+                         sim_.model.contact.tension);
   }
 
   // C2, C3.
@@ -245,7 +252,8 @@ class Simulation::Impl::Sweep {
     double tangentImpulse = 0;
     const double slipping = (state_.turns ? 1 + 2.5 * impact.arm * impact.arm : 1) * inverseMass;  // 1/m of the slip
     if (sim_.traits.turns && sliding > 0)
-      tangentImpulse = std::min(sim_.model.pairs.at(materialA, materialB).valueOr(Property::friction, 0) * normalImpulse, sliding / slipping);
+      tangentImpulse =
+          std::min(sim_.model.pairs.at(materialA, materialB).valueOr(Property::friction, 0) * normalImpulse, sliding / slipping);
     const Vec3 impulse = normalImpulse * n - (sliding > 0 ? Vec3(tangentImpulse / sliding * slip) : Vec3(Vec3::Zero()));
     const Vec3 couple = impact.arm * n.cross(impulse);
     const auto push = [&](Mover& mover, const GrainRow& of, const Vec3& by) {
@@ -256,7 +264,8 @@ class Simulation::Impl::Sweep {
       if (!state_.keepsOrientation) return;
       AngleRow& turned = state_.turned[static_cast<std::size_t>(mover.grain)];
       const double angle = (dt_ - impact.time) * of.inverseRadius;
-      turned.x += static_cast<float>(angle * spin.x()), turned.y += static_cast<float>(angle * spin.y()), turned.z += static_cast<float>(angle * spin.z());
+      turned.x += static_cast<float>(angle * spin.x()), turned.y += static_cast<float>(angle * spin.y()),
+          turned.z += static_cast<float>(angle * spin.z());
     };
     push(a, rowA, impulse);
     if (!wall) push(b, rowB, -impulse);
@@ -279,7 +288,8 @@ class Simulation::Impl::Sweep {
     if (mover.impacts == 0) return;
     const auto g = static_cast<std::size_t>(mover.grain);
     GrainRow& to = state_.rows[g];
-    const Vec3 x = mover.x + (dt_ - mover.since) * mover.u, straight(to.x, to.y, to.z), du = mover.u - wayVelocity(mover.grain), ds = mover.s - waySpin(mover.grain);
+    const Vec3 x = mover.x + (dt_ - mover.since) * mover.u, straight(to.x, to.y, to.z), du = mover.u - wayVelocity(mover.grain),
+               ds = mover.s - waySpin(mover.grain);
     double& haste2 = sim_.motions[static_cast<std::size_t>(sim_.slabs.of(mover.grain))].haste2;
     haste2 = std::max(haste2, (x - straight + dt_ * wayVelocity(mover.grain)).squaredNorm() / (dt_ * dt_) * state_.perSkin2[g]);
     to.x = x.x(), to.y = x.y(), to.z = x.z();
@@ -303,8 +313,8 @@ class Simulation::Impl::Sweep {
   std::vector<std::uint32_t> features_;
 };
 
-// The speed at which the softest contact of the heaviest grains would be pressed to the watch's limit, in radii per second, and a half of that:
-// two grains may approach each other so. A Hertz contact holds 4/15 S δ² where a linear one holds ½ S δ².
+// The speed at which the softest contact of the heaviest grains would be pressed to the watch's limit, in radii per second, and a half of
+// that: two grains may approach each other so. A Hertz contact holds 4/15 S δ² where a linear one holds ½ S δ².
 void Simulation::Impl::prepareSweep() {
   const std::size_t n = model.materials.size();
   const std::vector<char> meet = pairsThatMeet(model);
@@ -349,12 +359,15 @@ void checkContinuous(const Model& model) {
   if (!model.continuous) return;
   const Integrator i = model.integrator;
   if (i == Integrator::explicitEuler || i == Integrator::centralDifferences || i == Integrator::rungeKutta)
-    throw Error(ErrorKind::scene,
-                fmt::format("Continuous collisions change the velocity by which a grain goes on in a step; with {} there is no such velocity.", schemeOf(i).name),
-                "choose velocity_verlet, symplectic_euler or leapfrog");
+    throw Error(
+        ErrorKind::scene,
+        fmt::format("Continuous collisions change the velocity by which a grain goes on in a step; with {} there is no such velocity.",
+                    schemeOf(i).name),
+        "choose velocity_verlet, symplectic_euler or leapfrog");
   for (const Wall& wall : model.walls)
     if (wall.body)
-      throw Error(ErrorKind::scene, fmt::format("Continuous collisions need walls that nothing can push, and wall '{}' moves under load.", wall.name),
+      throw Error(ErrorKind::scene,
+                  fmt::format("Continuous collisions need walls that nothing can push, and wall '{}' moves under load.", wall.name),
                   "leave continuous out, or let the wall move by a given motion");
 }
 

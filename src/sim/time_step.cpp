@@ -98,7 +98,8 @@ void considerHeat(const Model& model, TimeStepChoice& choice) {
     const PropertyValues& values = model.materials[material].values;
     const double mass = massOf(values[Property::density], radius);
     const double rate = warmingRate(values[Property::conductivity], values[Property::heatCapacity], mass, radius);
-    if (rate * choice.limit > 1) choice = {1 / rate, fmt::format("heat conduction of {}, smallest grains", model.materials[material].name), {}};
+    if (rate * choice.limit > 1)
+      choice = {1 / rate, fmt::format("heat conduction of {}, smallest grains", model.materials[material].name), {}};
   };
   for (const Grain& grain : model.grains) meet(grain.material, grain.radius);
   for (const Stream& stream : model.streams) meet(stream.material, stream.radii.smallest());
@@ -181,7 +182,8 @@ TimeStepChoice choose(const Model& model, double neighbours) {
   const auto consider = [&](std::size_t a, std::size_t b, double inverseMasses, double effectiveRadius, double smallerRadius,
                             const std::string& what) {
     auto modes = lawFunctions(law).modes(constants.of(a * n + b), expectedOverlap * smallerRadius, effectiveRadius, inverseMasses);
-    if (!model.contact.rotation) modes[1] = {modes[1].stiffness / 3.5, modes[1].damping / 3.5};  // a sphere that turns slips with 2/7 of its mass
+    if (!model.contact.rotation)
+      modes[1] = {modes[1].stiffness / 3.5, modes[1].damping / 3.5};  // a sphere that turns slips with 2/7 of its mass
     for (std::size_t mode = 0; mode < modes.size(); ++mode) {
       const ContactMode packed = inPacking(modes[mode], neighbours, rateOf(a, b, mode > 0));
       if (packed.stiffness == 0 && packed.damping == 0) continue;

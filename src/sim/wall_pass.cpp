@@ -74,7 +74,7 @@ struct WallPass::Before {
     WallCandidate candidate;
   };
   std::vector<Contact> contacts;
-  std::vector<double> memory;              // `stateSize` numbers for each
+  std::vector<double> memory;  // `stateSize` numbers for each
   std::size_t stateSize;
   std::vector<std::int32_t> first, order;  // where the contacts of each grain begin in `order`, and the end
 
@@ -102,7 +102,8 @@ struct WallPass::Before {
   }
 };
 
-void WallPass::build(const State& state, const Slabs& slabs, double wallSkin, double dt, const std::vector<std::int32_t>& newPlace, ThreadTeam& team) {
+void WallPass::build(const State& state, const Slabs& slabs, double wallSkin, double dt, const std::vector<std::int32_t>& newPlace,
+                     ThreadTeam& team) {
   settle();
   double work = 0;
   for (const SlabWalls& slab : slabs_) work += slab.work;
@@ -110,9 +111,8 @@ void WallPass::build(const State& state, const Slabs& slabs, double wallSkin, do
   slabs_.assign(static_cast<std::size_t>(slabs.count()), SlabWalls{});
   near_.resize(slabs_.size());
   if (!slabs_.empty()) slabs_[0].work = work;
-  team.run(slabs.count(), [&](int s, int) {
-    buildSlab(state, slabs.begin(s), slabs.end(s), wallSkin, dt, before, slabs_[static_cast<std::size_t>(s)]);
-  });
+  team.run(slabs.count(),
+           [&](int s, int) { buildSlab(state, slabs.begin(s), slabs.end(s), wallSkin, dt, before, slabs_[static_cast<std::size_t>(s)]); });
 }
 
 /// A few grains that lie beside each other, since grains lie in the order of cells.
@@ -169,7 +169,8 @@ void WallPass::buildSlab(const State& state, std::int32_t begin, std::int32_t en
       if (!mayMeet(w, few, dt)) continue;
       for (std::int32_t g = few.begin; g < few.end; ++g) {
         const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
-        const Vec3 centre = centreOf(row), local = place.toLocal(centre), travel = dt * (Vec3(row.vx, row.vy, row.vz) - place.twist.at(centre));
+        const Vec3 centre = centreOf(row), local = place.toLocal(centre),
+                   travel = dt * (Vec3(row.vx, row.vy, row.vz) - place.twist.at(centre));
         const double reach = row.radius + state.skin[static_cast<std::size_t>(g)] + wallSkin + travel.norm();
         (*walls_)[w].surface->candidates(local, reach, features);
         if (!features.empty()) addGroup(state, g, w, local - place.rotation.transpose() * travel, features, before, slab);
@@ -182,8 +183,8 @@ void WallPass::buildSlab(const State& state, std::int32_t begin, std::int32_t en
 }
 
 // `start`: where the grain was a step ago, if it was nowhere near the wall.
-void WallPass::addGroup(const State& state, std::int32_t grain, std::size_t wall, const Vec3& start, const std::vector<std::uint32_t>& features,
-                        const Before& before, SlabWalls& slab) const {
+void WallPass::addGroup(const State& state, std::int32_t grain, std::size_t wall, const Vec3& start,
+                        const std::vector<std::uint32_t>& features, const Before& before, SlabWalls& slab) const {
   WallGroup group;
   group.grain = grain;
   group.wall = static_cast<std::uint16_t>(wall);
@@ -243,8 +244,8 @@ void WallPass::settle() {
   }
 }
 
-void WallPass::evaluateSlab(int slabNumber, const PassContext& context, WallKernel kernel, bool account, Stage& stage,
-                            Accounts& accounts, std::vector<ActingContact>* acting) {
+void WallPass::evaluateSlab(int slabNumber, const PassContext& context, WallKernel kernel, bool account, Stage& stage, Accounts& accounts,
+                            std::vector<ActingContact>* acting) {
   SlabWalls& slab = slabs_[static_cast<std::size_t>(slabNumber)];
   slab.lastWork = 0;
   slab.loads.assign(loaded_, WallLoad{});
@@ -257,7 +258,8 @@ void WallPass::evaluateSlab(int slabNumber, const PassContext& context, WallKern
       evaluatePlane(slab, w, context, batch);
     } else {
       findNearMesh(slab, w, context, near);
-      for (const std::int32_t n : near) evaluateGroup(slab, slab.groups[static_cast<std::size_t>(n)], slab.ways[static_cast<std::size_t>(n)], context, batch);
+      for (const std::int32_t n : near)
+        evaluateGroup(slab, slab.groups[static_cast<std::size_t>(n)], slab.ways[static_cast<std::size_t>(n)], context, batch);
     }
   }
   flush(slab, context, batch);
@@ -280,7 +282,8 @@ void WallPass::findNearMesh(const SlabWalls& slab, std::size_t wall, const PassC
 }
 
 // Finds out which candidates the grain may touch before it has gone farther than the margin, at least.
-void WallPass::wake(const Surface& surface, const Vec3& centre, double radius, double margin, SlabWalls& slab, WallGroup& group, WallWay& way) {
+void WallPass::wake(const Surface& surface, const Vec3& centre, double radius, double margin, SlabWalls& slab, WallGroup& group,
+                    WallWay& way) {
   way.start = centre;
   way.room = std::numeric_limits<double>::infinity();
   group.awake = 0;
@@ -383,19 +386,19 @@ void WallPass::note(SlabWalls& slab, std::int32_t candidateIndex, const Vec3& no
 
 // A contact that has just ended goes through the kernel once more, out of reach, so that its memory is cleared and what its spring held
 // is booked.
-void WallPass::putEnded(SlabWalls& slab, const WallPlace& place, const WallGroup& group, std::int32_t candidateIndex, const PassContext& context,
-                        Batch& batch) {
+void WallPass::putEnded(SlabWalls& slab, const WallPlace& place, const WallGroup& group, std::int32_t candidateIndex,
+                        const PassContext& context, Batch& batch) {
   WallCandidate& candidate = slab.candidates[static_cast<std::size_t>(candidateIndex)];
   candidate.touching = false;
   candidate.weight = 1;
   const GrainRow& row = context.rows[group.grain];
-  put(slab, place, group, candidateIndex, 1, 2 * row.radius * candidate.normal, place.turns ? place.twist.at(centreOf(row)) : place.twist.velocity, context,
-      batch);
+  put(slab, place, group, candidateIndex, 1, 2 * row.radius * candidate.normal,
+      place.turns ? place.twist.at(centreOf(row)) : place.twist.velocity, context, batch);
 }
 
 // Puts a contact on the bench: from the wall to the centre (m), and the velocity (m/s) of the wall where they touch, in the world.
-void WallPass::put(SlabWalls& slab, const WallPlace& place, const WallGroup& group, std::int32_t candidateIndex, double weight, const Vec3& d,
-                   const Vec3& velocity, const PassContext& context, Batch& batch) {
+void WallPass::put(SlabWalls& slab, const WallPlace& place, const WallGroup& group, std::int32_t candidateIndex, double weight,
+                   const Vec3& d, const Vec3& velocity, const PassContext& context, Batch& batch) {
   if (batch.count == chunkSize) flush(slab, context, batch);
   const auto k = static_cast<std::size_t>(batch.count++);
   const Vec3& spin = place.twist.angularVelocity;
@@ -409,14 +412,16 @@ void WallPass::put(SlabWalls& slab, const WallPlace& place, const WallGroup& gro
 
 // A grain that rolls from one feature to the next stays in contact: the new contact starts with the memory of the old one, as far as
 // their normals agree (at a right angle, where a second contact adds to the first, with nothing).
-void WallPass::handOver(const Surface& surface, SlabWalls& slab, const WallGroup& group, const WallContacts& contacts, const Mat3& rotation) {
+void WallPass::handOver(const Surface& surface, SlabWalls& slab, const WallGroup& group, const WallContacts& contacts,
+                        const Mat3& rotation) {
   const auto isForce = [this](int component) { return (law_.odd >> component & 1U) != 0; };
   const auto touchesNow = [&](std::uint32_t feature) {
     return std::any_of(contacts.begin(), contacts.end(), [&](const WallContact& contact) { return contact.feature == feature; });
   };
   const std::span<const std::int32_t> awake(slab.awake.data() + group.first, group.awake);
   for (const WallContact& contact : contacts) {
-    const auto at = std::find_if(awake.begin(), awake.end(), [&](std::int32_t c) { return slab.candidates[static_cast<std::size_t>(c)].feature == contact.feature; });
+    const auto at = std::find_if(awake.begin(), awake.end(),
+                                 [&](std::int32_t c) { return slab.candidates[static_cast<std::size_t>(c)].feature == contact.feature; });
     if (slab.candidates[static_cast<std::size_t>(*at)].touching) continue;
     const Vec3 normal = rotation * contact.normal;
     std::int32_t giver = -1;
@@ -440,11 +445,13 @@ void WallPass::handOver(const Surface& surface, SlabWalls& slab, const WallGroup
 void WallPass::flush(SlabWalls& slab, const PassContext& context, Batch& batch) {
   if (batch.count == 0) return;
   Stage& s = batch.stage;
-  batch.kernel(context, {batch.grain.data(), batch.rows.data(), batch.count, slab.memory.data(), batch.candidate.data()}, s, batch.accounts);
+  batch.kernel(context, {batch.grain.data(), batch.rows.data(), batch.count, slab.memory.data(), batch.candidate.data()}, s,
+               batch.accounts);
   for (int q = 0; (batch.account || batch.acting || loaded_ > 0) && q < batch.count; ++q) {
     const auto k = static_cast<std::size_t>(q);
     const bool touching = slab.candidates[static_cast<std::size_t>(batch.candidate[k])].touching;
-    if (batch.acting && touching) batch.acting->push_back(contactIn(s, q, batch.grain[k], ActingContact::ofWall(batch.wall[k]), law_.rolls));
+    if (batch.acting && touching)
+      batch.acting->push_back(contactIn(s, q, batch.grain[k], ActingContact::ofWall(batch.wall[k]), law_.rolls));
     if (const int loadPlace = loadOf_[batch.wall[k]]; loadPlace >= 0) {
       WallLoad& load = slab.loads[static_cast<std::size_t>(loadPlace)];
       load.force -= Vec3(s.fx[q], s.fy[q], s.fz[q]);

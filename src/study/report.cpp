@@ -120,8 +120,9 @@ std::string tableOf(const Study& study) {
     row.push_back(percent(point->bound()));
     rows.push_back(row);
   }
-  text += fmt::format("\n{}* on the front: nothing is both cheaper and more accurate. none: within the noise of the seeds and the error bar.\n",
-                      aligned(rows));
+  text +=
+      fmt::format("\n{}* on the front: nothing is both cheaper and more accurate. none: within the noise of the seeds and the error bar.\n",
+                  aligned(rows));
   for (const PictureQuality& picture : study.pictures)
     text += fmt::format("picture        {:<8}{:.3g} s of CPU a frame, {} from the finest (root mean square)\n", picture.quality,
                         picture.cost, percent(picture.error));

@@ -297,9 +297,12 @@ std::vector<Feature> featuresOf(const scene::Scene& scene) {
   if (contact.rolling != "none") held.rolling = "none";
   if (contact.twisting != "none") held.twisting = "none";
   const bool lasting = scene.magnets && std::any_of(scene.materials.begin(), scene.materials.end(), [](const scene::Material& m) {
-    return m.properties[sim::Property::magnetisation].has_value();
-  });
-  features.push_back({"rotation", held, !scene.bonds.empty() ? "bonds bend and twist" : lasting ? "lasting magnets turn" : unless(rubs && contact.rotation, "it")});
+                         return m.properties[sim::Property::magnetisation].has_value();
+                       });
+  features.push_back({"rotation", held,
+                      !scene.bonds.empty() ? "bonds bend and twist"
+                      : lasting            ? "lasting magnets turn"
+                                           : unless(rubs && contact.rotation, "it")});
   tension.tension = !contact.tension;
   features.push_back({contact.tension ? "tension" : "one-sided contacts", tension, {}});
   equal.equalGrains = true;

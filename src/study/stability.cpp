@@ -146,8 +146,8 @@ class Trier {
     }
   }
 
-  /// Do copies part by themselves: at this step, in the time of all steps of `measured`, stirred as there, and by a tenth of that acceleration? Or do
-  /// they get louder? Where a contact begins, its dashpot shows for a single step: every one is looked at.
+  /// Do copies part by themselves: at this step, in the time of all steps of `measured`, stirred as there, and by a tenth of that
+  /// acceleration? Or do they get louder? Where a contact begins, its dashpot shows for a single step: every one is looked at.
   bool partsAnyway(double dt, double measured) const {
     const double way = hair * overlap_, enough = growth * way * (dt / measured) * (dt / measured);
     try {
@@ -273,9 +273,7 @@ std::optional<Stability> findStability(const StabilityRequest& request, const St
                 "give another --at");
   found.automatic = plan.limit;
   found.limitedBy = plan.limitedBy;
-  if (!built.model.bonds.empty())
-    found.notes.push_back(
-        "Bonds are made anew for the trial.");
+  if (!built.model.bonds.empty()) found.notes.push_back("Bonds are made anew for the trial.");
   found.predicted = sim::limitsOf(simulation.network(), built.model, snapshot);
   const double overlap = instant.contacts.empty() ? 1e-3 * snapshot.radius[0] : meanOverlap(instant);
   find(Trier(modelOf(built, snapshot), overlap, request.steps, stop), stop, found);
@@ -283,10 +281,12 @@ std::optional<Stability> findStability(const StabilityRequest& request, const St
   found.safety = plan.timeStep / found.measured;
   if (found.restless)
     found.notes.push_back(
-        "The state does not stay as it is: grains fall, slide or collide. Unstable is then where the scheme makes a quarter of the energy that is turned "
+        "The state does not stay as it is: grains fall, slide or collide. Unstable is then where the scheme makes a quarter of the energy "
+        "that is turned "
         "over, to 2 %; the stiffest mode takes all its contacts for stuck and closed. Try --at a time at which the scene rests.");
   if (!found.found)
-    found.notes.push_back(found.restless ? "No step between a tenth and four times the prediction makes energy: what limits is how far grains go in a step, not stability."
+    found.notes.push_back(found.restless ? "No step between a tenth and four times the prediction makes energy: what limits is how far "
+                                           "grains go in a step, not stability."
                                          : "No step between a tenth and four times the prediction parts stable from unstable.");
   return found;
 }

@@ -21,9 +21,9 @@ struct StabilityRequest {
 struct Stability {
   double time = 0;  ///< s: of the state
   std::size_t grains = 0, contacts = 0;
-  double measured = 0;  ///< s: stable below, unstable above, to half a per cent
+  double measured = 0;    ///< s: stable below, unstable above, to half a per cent
   bool restless = false;  ///< copies of the state part at any step: judged by the energy that the scheme makes
-  bool found = true;    ///< false: stable, or unstable, at every step that was tried
+  bool found = true;      ///< false: stable, or unstable, at every step that was tried
   sim::StabilityLimits predicted{};
   double automatic = 0;  ///< s: what the automatic step takes for the limit, before any contact is known (S3–S5)
   double safety = 0;     ///< the scene's own step over the measured limit

@@ -26,9 +26,9 @@ struct Shot {
 };
 
 // Early enough to be quick, late enough for something to have happened.
-const std::vector<Shot> shots{{"hopper", 0.0, 0.12}, {"avalanche", 0.0, 0.12}, {"drum", 0.0, 0.12}, {"bouncing", 0.2, 1.0},
-                              {"cradle", 0.0, 0.4}, {"silo", 0.1, 0.3}, {"sediment", 0.0, 0.3}, {"brazil_nut", 0.0, 0.3},
-                              {"toner", 0.0, 0.02}, {"bonded_beam", 0.0, 0.12}, {"fracture", 0.0, 0.0032}, {"kiln", 0.0, 0.4},
+const std::vector<Shot> shots{{"hopper", 0.0, 0.12}, {"avalanche", 0.0, 0.12},   {"drum", 0.0, 0.12},       {"bouncing", 0.2, 1.0},
+                              {"cradle", 0.0, 0.4},  {"silo", 0.1, 0.3},         {"sediment", 0.0, 0.3},    {"brazil_nut", 0.0, 0.3},
+                              {"toner", 0.0, 0.02},  {"bonded_beam", 0.0, 0.12}, {"fracture", 0.0, 0.0032}, {"kiln", 0.0, 0.4},
                               {"piston", 0.1, 0.21}};
 
 class ShippedScene : public testing::TestWithParam<Shot> {};
@@ -102,7 +102,8 @@ test::Comparison afterMovingOneGrain(const std::string& name) {
   render::Renderer renderer(built.style, built.walls, built.bounds);
   Snapshot snapshot = first(built);
   const Image before = renderer.draw(snapshot);
-  const auto top = std::max_element(snapshot.position.begin(), snapshot.position.end(), [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
+  const auto top =
+      std::max_element(snapshot.position.begin(), snapshot.position.end(), [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
   top->z() += snapshot.radius[static_cast<std::size_t>(top - snapshot.position.begin())];
   return test::compareImages(before, renderer.draw(snapshot));
 }

@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 class MeshFile : public testing::Test {
  protected:
   void SetUp() override {
-    directory_ = fs::temp_directory_path() / ("tsubu_mesh_file_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    directory_ =
+        fs::temp_directory_path() / ("tsubu_mesh_file_test_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::create_directories(directory_);
   }
   void TearDown() override { fs::remove_all(directory_); }
@@ -194,7 +195,9 @@ void expectError(const fs::path& path, const std::string& part) {
 
 TEST_F(MeshFile, StlAsText) { expectBox(write("box.stl", asciiStl(box()))); }
 TEST_F(MeshFile, StlAsBinary) { expectBox(write("box.stl", binaryStl(box()))); }
-TEST_F(MeshFile, StlAsBinaryWithTheHeaderOfText) { expectBox(write("box.stl", binaryStl(box(), "solid made by a program that does not know better"))); }
+TEST_F(MeshFile, StlAsBinaryWithTheHeaderOfText) {
+  expectBox(write("box.stl", binaryStl(box(), "solid made by a program that does not know better")));
+}
 TEST_F(MeshFile, Obj) { expectBox(write("box.obj", objWithQuads())); }
 TEST_F(MeshFile, Ply) { expectBox(write("box.ply", asciiPlyWithQuads())); }
 TEST_F(MeshFile, PlyAsBinary) { expectBox(write("box.ply", binaryPly())); }
@@ -209,8 +212,8 @@ TEST_F(MeshFile, GltfWithABufferBesideIt) {
 
 TEST_F(MeshFile, NothingIsJoinedOrLeftOut) {
   std::vector<Triangle> triangles = box();
-  triangles.push_back(triangles[3]);                                         // a duplicate
-  triangles.push_back({corner(0), corner(0), corner(1)});                    // no area
+  triangles.push_back(triangles[3]);                                          // a duplicate
+  triangles.push_back({corner(0), corner(0), corner(1)});                     // no area
   triangles.push_back({corner(0), corner(1), corner(1) + Vec3(0, 1e-6, 0)});  // a splinter
   for (const std::string& bytes : {asciiStl(triangles), binaryStl(triangles)}) {
     const TriangleMesh mesh = readMesh(write("bad.stl", bytes));
@@ -243,7 +246,8 @@ TEST_F(MeshFile, SeveralThreadsMayReadAtOnce) {
   const fs::path stl = write("box.stl", asciiStl(box())), ply = write("box.ply", asciiPlyWithQuads());
   std::vector<std::size_t> counts(8);
   std::vector<std::thread> threads;
-  for (std::size_t i = 0; i < counts.size(); ++i) threads.emplace_back([&, i] { counts[i] = readMesh(i % 2 ? stl : ply).triangles.size(); });
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    threads.emplace_back([&, i] { counts[i] = readMesh(i % 2 ? stl : ply).triangles.size(); });
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(counts, std::vector<std::size_t>(8, 12));
 }
@@ -265,11 +269,15 @@ TEST_F(MeshFile, SaysWhatIsWrongWithAFile) {
 }
 
 TEST_F(MeshFile, AFileThatBreaksOffIsRefused) {
-  const std::pair<const char*, std::string> files[] = {
-      {"cut_text.stl", asciiStl(box())}, {"cut.stl", binaryStl(box())}, {"cut.ply", asciiPlyWithQuads()}, {"cut_binary.ply", binaryPly()}, {"cut.glb", glb()}};
+  const std::pair<const char*, std::string> files[] = {{"cut_text.stl", asciiStl(box())},
+                                                       {"cut.stl", binaryStl(box())},
+                                                       {"cut.ply", asciiPlyWithQuads()},
+                                                       {"cut_binary.ply", binaryPly()},
+                                                       {"cut.glb", glb()}};
   for (const auto& [name, whole] : files) {
     ASSERT_NO_THROW(readMesh(write(name, whole))) << name;
-    for (std::size_t size = 1; size + 12 < whole.size(); size += 37) EXPECT_THROW(readMesh(write(name, whole.substr(0, size))), Error) << name << " " << size;
+    for (std::size_t size = 1; size + 12 < whole.size(); size += 37)
+      EXPECT_THROW(readMesh(write(name, whole.substr(0, size))), Error) << name << " " << size;
   }
 }
 

@@ -71,9 +71,7 @@ TEST(Font, LettersStayWithinTheirWidth) {
   }
 }
 
-TEST(Font, InkGrowsWithTheSquareOfTheSize) {
-  EXPECT_NEAR(inked(written("E", 24)) / inked(written("E", 12)), 4, 0.4);
-}
+TEST(Font, InkGrowsWithTheSquareOfTheSize) { EXPECT_NEAR(inked(written("E", 24)) / inked(written("E", 12)), 4, 0.4); }
 
 TEST(Font, DigitsAreEquallyWideSoThatAClockDoesNotJump) {
   for (char c = '0'; c <= '9'; ++c) EXPECT_EQ(textWidth(std::string(1, c), 10), textWidth("0", 10));
@@ -87,7 +85,9 @@ TEST(Font, TextBeyondTheEdgeIsCut) {
 
 TEST(Utf8, IsDecodedAndBrokenBytesAreMarked) {
   EXPECT_EQ(codePoints("aµ×\u20ac"), (std::vector<char32_t>{U'a', U'\u00b5', U'\u00d7', U'\u20ac'}));
-  EXPECT_EQ(codePoints("\xff" "a\xc2"), (std::vector<char32_t>{U'\ufffd', U'a', U'\ufffd'}));
+  EXPECT_EQ(codePoints("\xff"
+                       "a\xc2"),
+            (std::vector<char32_t>{U'\ufffd', U'a', U'\ufffd'}));
   EXPECT_EQ(codePoints("\xf0\x9f\x8c\xbe"), (std::vector<char32_t>{U'\U0001f33e'}));
 }
 

@@ -74,8 +74,8 @@ TEST(View, AnOrbitGoesRoundAtItsAngularVelocity) {
 
 KeyFrameCamera threeFrames() {
   KeyFrameCamera camera;
-  camera.frames = {{0, {0, -10, 0}, {0, 0, 0}, {0, 0, 1}, 0.5}, {1, {5, -8, 2}, {1, 0, 0}, {0, 0, 1}, 0.6},
-                   {3, {10, 0, 5}, {0, 0, 2}, {0, 0, 1}, 0.4}};
+  camera.frames = {
+      {0, {0, -10, 0}, {0, 0, 0}, {0, 0, 1}, 0.5}, {1, {5, -8, 2}, {1, 0, 0}, {0, 0, 1}, 0.6}, {3, {10, 0, 5}, {0, 0, 2}, {0, 0, 1}, 0.4}};
   return camera;
 }
 

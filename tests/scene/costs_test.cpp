@@ -31,7 +31,8 @@ TEST(Costs, WhatIsNotNamedIsNeitherAllocatedNorRun) {
   EXPECT_FALSE(traits.rolls);
   EXPECT_TRUE(sim::makePasses(built.model).empty());
   const sim::Plan plan = sim::Simulation::plan(built.model);
-  EXPECT_EQ(plan.passes, (std::vector<std::string>{"neighbour lists (when grains have moved)", "pair contacts", "integrate: symplectic Euler"}));
+  EXPECT_EQ(plan.passes,
+            (std::vector<std::string>{"neighbour lists (when grains have moved)", "pair contacts", "integrate: symplectic Euler"}));
   EXPECT_EQ(plan.bytesPerContact, 0u);
   // A row, a force, the id, the material, and where it was when lists were made.
   EXPECT_EQ(plan.bytesPerGrain, 12 * 8u + 8 * 8u + 4u + 2u + 3 * 8u + 2 * 4u);  // the last: the skin
@@ -87,9 +88,10 @@ TEST(Costs, PaintedGrainsGoTheSameWay) {
     simulation.fill(snapshot);
     return snapshot;
   };
-  for (const Overrides& how : {Overrides{}, Overrides{"simulation.integrator=velocity_verlet"}, Overrides{"simulation.integrator=leapfrog"},
-                               Overrides{"simulation.integrator=central_differences"}, Overrides{"simulation.integrator=explicit_euler"},
-                               Overrides{"simulation.integrator=rk4"}, Overrides{"simulation.precision=mixed"}, Overrides{"simulation.continuous=true"}}) {
+  for (const Overrides& how :
+       {Overrides{}, Overrides{"simulation.integrator=velocity_verlet"}, Overrides{"simulation.integrator=leapfrog"},
+        Overrides{"simulation.integrator=central_differences"}, Overrides{"simulation.integrator=explicit_euler"},
+        Overrides{"simulation.integrator=rk4"}, Overrides{"simulation.precision=mixed"}, Overrides{"simulation.continuous=true"}}) {
     const Snapshot plain = after(how, "none"), painted = after(how, "stripes");
     const std::string name = how.empty() ? "" : how.front();
     ASSERT_EQ(plain.grains(), painted.grains()) << name;
@@ -123,11 +125,15 @@ TEST(Costs, EveryFeatureHasBeenMeasured) {
   for (const sim::LawFamily& family : sim::lawFamilies())
     for (const sim::LawInfo& law : family.laws) {
       const std::string feature = std::string(family.key) + ": " + std::string(law.name);
-      if (law.name != "none" && law.name != "linear") { EXPECT_NE(costs.of(feature), nullptr) << feature << ": run bench/costs.py"; }
+      if (law.name != "none" && law.name != "linear") {
+        EXPECT_NE(costs.of(feature), nullptr) << feature << ": run bench/costs.py";
+      }
     }
-  for (const std::string& feature : featuresOf(build(readText(shortScene, "scene.toml")).model)) EXPECT_NE(costs.of(feature), nullptr) << feature;
-  for (const char* feature : {"rotation held", "bonds", "drag", "global damping", "magnets", "heat conduction", "periodic domain", "mesh wall", "moving wall",
-                              "walls that move under load", "sizes of grains", "continuous collisions", "energy ledger", "orientation of grains", "mixed precision"})
+  for (const std::string& feature : featuresOf(build(readText(shortScene, "scene.toml")).model))
+    EXPECT_NE(costs.of(feature), nullptr) << feature;
+  for (const char* feature : {"rotation held", "bonds", "drag", "global damping", "magnets", "heat conduction", "periodic domain",
+                              "mesh wall", "moving wall", "walls that move under load", "sizes of grains", "continuous collisions",
+                              "energy ledger", "orientation of grains", "mixed precision"})
     EXPECT_NE(costs.of(feature), nullptr) << feature;
   const FeatureCost *plain = costs.of("contacts, motion, lists"), *off = costs.of("everything off, said so");
   ASSERT_TRUE(plain && off);

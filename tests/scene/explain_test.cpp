@@ -24,7 +24,8 @@ TEST(Explain, SaysWhatSetsTheTimeStep) {
   EXPECT_TRUE(says(explained(), "stiffness of glass–glass"));
   // Eight contacts instead of one, and m* = m/2 between grains: 2√(m/k) is √(8 × 2) = 4 times too long.
   EXPECT_TRUE(says(explained(), "rules for a single contact would allow "));
-  EXPECT_TRUE(says(explained({"simulation.integrator=symplectic_euler", "pairs.restitution=1", "contact.tangential=none"}), "4 (Note), 4 (2√(m/k)), 6.3 (π√(m/k)) times"));
+  EXPECT_TRUE(says(explained({"simulation.integrator=symplectic_euler", "pairs.restitution=1", "contact.tangential=none"}),
+                   "4 (Note), 4 (2√(m/k)), 6.3 (π√(m/k)) times"));
   EXPECT_TRUE(says(explained({"simulation.time_step=1e-6"}), "set by the scene (time_step)"));
   EXPECT_TRUE(says(explained({"grains.bed.velocity=[1000,0,0]"}), "speed: up to "));
   EXPECT_TRUE(says(explained({"simulation.time_step=1e-3"}), "above the stability limit"));

@@ -39,9 +39,7 @@ std::vector<GrainRow> randomRows(Random& random, Shape shape, int count, double 
   return rows;
 }
 
-double gap(const GrainRow& a, const GrainRow& b) {
-  return Vec3(a.x - b.x, a.y - b.y, a.z - b.z).norm() - a.radius - b.radius;
-}
+double gap(const GrainRow& a, const GrainRow& b) { return Vec3(a.x - b.x, a.y - b.y, a.z - b.z).norm() - a.radius - b.radius; }
 
 // With the loops of every instruction set, in turn.
 TEST(CellGrid, FindsAllThatBruteForceFinds) {
@@ -65,7 +63,8 @@ TEST(CellGrid, FindsAllThatBruteForceFinds) {
       std::vector<std::int32_t> partners;
       partners.resize(grid.partners(Vec3(rows[g].x, rows[g].y, rows[g].z), rows[g].radius, static_cast<std::int32_t>(g), partners));
       std::sort(partners.begin(), partners.end());
-      ASSERT_EQ(partners, std::vector<std::int32_t>(std::upper_bound(found.begin(), found.end(), static_cast<std::int32_t>(g)), found.end()));
+      ASSERT_EQ(partners,
+                std::vector<std::int32_t>(std::upper_bound(found.begin(), found.end(), static_cast<std::int32_t>(g)), found.end()));
       for (std::size_t o = 0; o < rows.size(); ++o) {
         if (o == g) continue;
         const double excess = gap(rows[g], rows[o]) - reach;
@@ -101,7 +100,8 @@ TEST(CellGrid, PartnersOfEqualGrainsComeInOrder) {
   }
 }
 
-// Grains get a new order, some go and some come: the memory of the others follows, and what is a force changes its sign with the order of a pair.
+// Grains get a new order, some go and some come: the memory of the others follows, and what is a force changes its sign with the order of a
+// pair.
 TEST(PairLists, MemoryFollowsGrainsInTheirNewOrder) {
   Random random(21, 4);
   ThreadTeam team(2);
@@ -172,7 +172,8 @@ TEST(PairLists, MemoryFollowsGrainsInTheirNewOrder) {
           ASSERT_FALSE(knew);
         }
         kept += knew, turned += knew && a > b;
-        for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(slab.memory.at(c, k), knew ? remembered(a, b, static_cast<int>(c)) : 0) << "round " << round;
+        for (std::size_t c = 0; c < 3; ++c)
+          ASSERT_EQ(slab.memory.at(c, k), knew ? remembered(a, b, static_cast<int>(c)) : 0) << "round " << round;
       }
     }
   }
@@ -190,7 +191,8 @@ TEST(PairLists, HoldEveryNearPairOnceInOrder) {
     state.rows = randomRows(random, shape, 1 + round % 90, ratio, round % 7 == 0 ? Vec3(1e6, 0, -1e6) : Vec3(Vec3::Zero()));
     // Every grain has a skin of its own: most of them thin ones.
     const double thickest = 1e-3 * random.uniform(0.005, 1), share = 0.4;
-    for (std::size_t g = 0; g < state.rows.size(); ++g) state.skin.push_back(static_cast<float>(thickest * std::pow(random.uniform(0.01, 1), 3)));
+    for (std::size_t g = 0; g < state.rows.size(); ++g)
+      state.skin.push_back(static_cast<float>(thickest * std::pow(random.uniform(0.01, 1), 3)));
     std::vector<std::int32_t> order;
     const Slabs slabs = sortIntoSlabs(state.rows, 2 * (1e-3 + thickest), order);
     state.reorder(order);
@@ -333,7 +335,8 @@ test::Scenario fastAboveResting(std::uint64_t seed) {
   Random random(seed, 34);
   for (int n = 0; n < 5 * 5 * 6; ++n) {
     const bool fast = n >= 125;
-    const Vec3 x = 2.4e-3 * Vec3(n % 5 - 2, n / 5 % 5 - 2, n / 25 - 2.2), v = fast ? 12 * test::randomIn(random, -Vec3::Ones(), Vec3::Ones()) : Vec3(0, 0, 0);
+    const Vec3 x = 2.4e-3 * Vec3(n % 5 - 2, n / 5 % 5 - 2, n / 25 - 2.2),
+               v = fast ? 12 * test::randomIn(random, -Vec3::Ones(), Vec3::Ones()) : Vec3(0, 0, 0);
     const double r = fast ? 0.5e-3 : 1e-3 * random.uniform(0.3, 1.1);
     s.grain(2500 * 4.2 * r * r * r, r, x, v);
   }
@@ -358,7 +361,9 @@ std::uint64_t expectAllContactsAreFound(const test::Scenario& scenario, const st
   return sim.counts().impacts;
 }
 
-WallMotion shaken() { return WallMotion({{Oscillation{{8e-4, 5e-4, 1e-3}, 300, 0.2}, 0, 1e9}, {Rotation{{0, 0, 0}, Vec3::UnitZ(), 40}, 0, 1e9}}); }
+WallMotion shaken() {
+  return WallMotion({{Oscillation{{8e-4, 5e-4, 1e-3}, 300, 0.2}, 0, 1e9}, {Rotation{{0, 0, 0}, Vec3::UnitZ(), 40}, 0, 1e9}});
+}
 
 TEST(Lists, NeverMissAContactOfFastGrainsBesideRestingOnes) {
   for (const double skin : {0.0, 2e-5, 2e-3}) {

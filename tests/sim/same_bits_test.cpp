@@ -55,9 +55,7 @@ struct Outcome {
   bool operator==(const Outcome&) const = default;
 };
 
-Outcome outcomeOf(Simulation& sim) {
-  return {sim.stateHash(), sim.counts().inserted, sim.counts().removed, sim.counts().crossed[0]};
-}
+Outcome outcomeOf(Simulation& sim) { return {sim.stateHash(), sim.counts().inserted, sim.counts().removed, sim.counts().crossed[0]}; }
 
 constexpr double dt = 8e-6;
 constexpr std::uint64_t steps = 800;
@@ -116,8 +114,8 @@ TEST(SameBits, WithAndWithoutLedger) {
 
 // Looking forces the evaluation of forces that the next step would have made: it must be the same evaluation, made once.
 TEST(SameBits, HoweverOftenOneLooks) {
-  for (const Integrator integrator : {Integrator::symplecticEuler, Integrator::velocityVerlet, Integrator::explicitEuler, Integrator::leapfrog,
-                                      Integrator::centralDifferences, Integrator::rungeKutta}) {
+  for (const Integrator integrator : {Integrator::symplecticEuler, Integrator::velocityVerlet, Integrator::explicitEuler,
+                                      Integrator::leapfrog, Integrator::centralDifferences, Integrator::rungeKutta}) {
     Scenario s = busy(integrator);
     const Outcome unseen = run(s, 1);
     Simulation sim = s.start(dt);
@@ -175,7 +173,8 @@ TEST(Rebuilds, CarryTheMemoryOfContacts) {
       sim.advance(2000);
       const Snapshot now = test::look(sim);
       if (reference.empty()) reference = now.position;
-      for (std::size_t g = 0; g < reference.size(); ++g) EXPECT_LT((now.position[g] - reference[g]).norm(), 1e-12) << skin << ", grain " << g;
+      for (std::size_t g = 0; g < reference.size(); ++g)
+        EXPECT_LT((now.position[g] - reference[g]).norm(), 1e-12) << skin << ", grain " << g;
     }
   }
 }

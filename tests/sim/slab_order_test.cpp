@@ -36,7 +36,9 @@ TEST(SlabOrder, OddSlabsWaitForBothNeighbours) {
       };
       std::vector<double> work(slabs);
       for (std::size_t k = 0; k < slabs; ++k) work[k] = k % 9 < 4 ? 0 : Random(8, k).uniform(0, 10);
-      overSlabs(shareSlabs(work, threads), team, [&](int slab, int) { note(evaluated, slab, 1); }, [&](int slab, int) { note(completed, slab, 2); });
+      overSlabs(
+          shareSlabs(work, threads), team, [&](int slab, int) { note(evaluated, slab, 1); },
+          [&](int slab, int) { note(completed, slab, 2); });
       for (std::size_t k = 0; k < slabs; ++k) {
         EXPECT_EQ(evaluated[k].times, 1);
         EXPECT_EQ(completed[k].times, 1);
@@ -82,7 +84,8 @@ TEST(SlabOrder, BlocksHaveAboutTheSameWork) {
 TEST(SlabOrder, OneThreadGoesThroughNeighboursTogether) {
   ThreadTeam team(1);
   std::vector<int> order;
-  overSlabs(shareSlabs(std::vector<double>(9, 1.0), 1), team, [&](int slab, int) { order.push_back(slab); }, [](int, int) {});
+  overSlabs(
+      shareSlabs(std::vector<double>(9, 1.0), 1), team, [&](int slab, int) { order.push_back(slab); }, [](int, int) {});
   for (std::size_t n = 1; n < order.size(); ++n) EXPECT_LE(std::abs(order[n] - order[n - 1]), 3) << n;
 }
 

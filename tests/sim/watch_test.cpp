@@ -188,13 +188,13 @@ TEST(Counters, CountNetCrossings) {
   s.model.counters.push_back({"gate", {0, 0, 0}, {0, 0, 1}, 0.01});
   s.model.counters.push_back({"all", {0, 0, 0}, {0, 0, 1}, std::numeric_limits<double>::infinity()});
   const double v = 0.5;
-  s.grain(1e-5, 1e-3, {0, 0, -0.02}, {0, 0, v});            // through the gate
-  s.grain(1e-5, 1e-3, {0.005, 0, 0.02}, {0, 0, -v});        // back through the gate
-  s.grain(1e-5, 1e-3, {-0.005, 0, -0.02}, {0, 0, v});       // through the gate
-  s.grain(1e-5, 1e-3, {0.05, 0, -0.02}, {0, 0, v});         // past it
-  s.grain(1e-5, 1e-3, {-0.05, 0, -0.02}, {v, 0, v});        // past it, and drawing nearer
-  s.grain(1e-5, 1e-3, {0, 0.009, -0.02}, {0, 0.0, v});      // through
-  s.grain(1e-5, 1e-3, {0, -0.0085, -1e-4}, {0, -1, 0.1});   // through at its rim, a millisecond later far outside
+  s.grain(1e-5, 1e-3, {0, 0, -0.02}, {0, 0, v});           // through the gate
+  s.grain(1e-5, 1e-3, {0.005, 0, 0.02}, {0, 0, -v});       // back through the gate
+  s.grain(1e-5, 1e-3, {-0.005, 0, -0.02}, {0, 0, v});      // through the gate
+  s.grain(1e-5, 1e-3, {0.05, 0, -0.02}, {0, 0, v});        // past it
+  s.grain(1e-5, 1e-3, {-0.05, 0, -0.02}, {v, 0, v});       // past it, and drawing nearer
+  s.grain(1e-5, 1e-3, {0, 0.009, -0.02}, {0, 0.0, v});     // through
+  s.grain(1e-5, 1e-3, {0, -0.0085, -1e-4}, {0, -1, 0.1});  // through at its rim, a millisecond later far outside
   for (const bool looking : {false, true}) {
     Scenario same = s;
     same.model.skin = 0.02;

@@ -160,7 +160,9 @@ plane = {}
   EXPECT_LT(s.automatic, s.measured);
   EXPECT_GT(s.measured, 0.6 * s.predicted.spectral);
   EXPECT_LT(s.measured, 2 * s.predicted.spectral);
-  if (s.restless) { EXPECT_NE(tableOf(s).find("does not stay as it is"), std::string::npos); }
+  if (s.restless) {
+    EXPECT_NE(tableOf(s).find("does not stay as it is"), std::string::npos);
+  }
 }
 
 TEST(Stability, OneThatBouncesHasNothingToBlowUp) {

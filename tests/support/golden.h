@@ -36,8 +36,8 @@ inline testing::AssertionResult matchesGolden(const std::filesystem::path& golde
   io::writePng(reports / (name + ".actual.png"), actual, {{"renderer", renderer}});
   io::writePng(reports / (name + ".difference.png"), differencePicture(expected.image, actual));
   return testing::AssertionFailure() << golden << " is not matched ("
-                                     << (sameRenderer ? "same renderer: must be exact" : "another renderer: must look the same")
-                                     << "). " << comparison.text() << ". See " << reports / (name + ".difference.png");
+                                     << (sameRenderer ? "same renderer: must be exact" : "another renderer: must look the same") << "). "
+                                     << comparison.text() << ". See " << reports / (name + ".difference.png");
 }
 
 }  // namespace tsubu::test

@@ -18,11 +18,11 @@ enum class Tier {
 struct Comparison {
   Tier tier = Tier::different;
   bool sameSize = false;
-  int worstLevels = 0;        ///< largest difference of a channel, 0 to 255
-  double differing = 0;       ///< share of pixels that are not equal
-  double ssim = 0;            ///< mean structural similarity of the lightness, 1 for equal pictures
-  double flip = 0;            ///< mean of the FLIP-like difference, 0 to 1
-  double worstWindow = 0;     ///< its largest mean over a window of 7 × 7 pixels: one wrong grain does not drown in a large picture
+  int worstLevels = 0;     ///< largest difference of a channel, 0 to 255
+  double differing = 0;    ///< share of pixels that are not equal
+  double ssim = 0;         ///< mean structural similarity of the lightness, 1 for equal pictures
+  double flip = 0;         ///< mean of the FLIP-like difference, 0 to 1
+  double worstWindow = 0;  ///< its largest mean over a window of 7 × 7 pixels: one wrong grain does not drown in a large picture
 
   bool reaches(Tier required) const { return static_cast<int>(tier) <= static_cast<int>(required); }
   /// All the numbers in a sentence.

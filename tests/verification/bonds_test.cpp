@@ -72,9 +72,12 @@ TEST(Bonds, KeepTheEnergy) {
   const Drift coarse = driftOf(Integrator::velocityVerlet, 4e-7, 4e-3), fine = driftOf(Integrator::velocityVerlet, 1e-7, 4e-3);
   const Drift euler = driftOf(Integrator::symplecticEuler, 4e-7, 4e-3), eulerFine = driftOf(Integrator::symplecticEuler, 1e-7, 4e-3);
   const Drift longer = driftOf(Integrator::velocityVerlet, 4e-7, 40e-3);
-  const double order = std::log(coarse.worst / fine.worst) / std::log(4.0), eulerOrder = std::log(euler.worst / eulerFine.worst) / std::log(4.0);
-  fmt::print("  energy of bonded grains: velocity Verlet {:.1e} at 0.4 µs, order {:.2f}; ten times as long {:.1e}; symplectic Euler {:.1e}, order {:.2f}\n",
-             coarse.worst, order, longer.worst, euler.worst, eulerOrder);
+  const double order = std::log(coarse.worst / fine.worst) / std::log(4.0),
+               eulerOrder = std::log(euler.worst / eulerFine.worst) / std::log(4.0);
+  fmt::print(
+      "  energy of bonded grains: velocity Verlet {:.1e} at 0.4 µs, order {:.2f}; ten times as long {:.1e}; symplectic Euler {:.1e}, order "
+      "{:.2f}\n",
+      coarse.worst, order, longer.worst, euler.worst, eulerOrder);
   EXPECT_NEAR(order, 2, 0.25);
   EXPECT_NEAR(eulerOrder, 1, 0.25);
   EXPECT_LT(coarse.worst, 1e-2);
@@ -113,7 +116,8 @@ TEST(Bonds, DoNotKnowWhichEndIsFirst) {
 // A bar of unequal grains that turns as a rigid body stays one: the bonds feel nothing but the centrifugal pull.
 TEST(Bonds, FreeBarTurns) {
   Scenario s = bonded(elastic(1e12));
-  const Vec3 along = Vec3(1, 2, -0.5).normalized(), spin = 50 * Vec3(Vec3(0.3, -0.4, 1) - Vec3(0.3, -0.4, 1).dot(along) * along).normalized();
+  const Vec3 along = Vec3(1, 2, -0.5).normalized(),
+             spin = 50 * Vec3(Vec3(0.3, -0.4, 1) - Vec3(0.3, -0.4, 1).dot(along) * along).normalized();
   double x = 0;
   const double radii[] = {1e-3, 1.5e-3, 0.8e-3, 1.2e-3, 1.4e-3};
   Vec3 centre = Vec3::Zero();
@@ -211,7 +215,9 @@ TEST(Breakage, AtTheStatedStress) {
   const double never = BondStrength::never, k = 1e10, kt = k / 1.7, rb = 0.8e-3, area = pi * rb * rb, inertia = pi * std::pow(rb, 4) / 4;
   const double v = 1e-3, omega = 1.5;
   const BondStrength tension{5e5, never, never, 0, never}, compression{never, 7e5, never, 0, never}, shear{never, never, 3e5, 0, never};
-  const auto expectTime = [](const Pulled& pulled, double time, const char* what) { EXPECT_NEAR(pulled.time, time, 2.5e-5 + 1e-4 * time) << what; };
+  const auto expectTime = [](const Pulled& pulled, double time, const char* what) {
+    EXPECT_NEAR(pulled.time, time, 2.5e-5 + 1e-4 * time) << what;
+  };
 
   const Pulled pulled = pull(tension, {v, 0, 0}, Vec3::Zero());
   expectTime(pulled, 5e5 / k / v, "tension");
@@ -222,11 +228,13 @@ TEST(Breakage, AtTheStatedStress) {
   EXPECT_EQ(pull(tension, {-v / 50, 0, 0}, Vec3::Zero()).ledger.dissipatedBreakage, 0) << "compression is harmless by default";
   const Pulled twisted = pull(shear, Vec3::Zero(), {omega, 0, 0});
   expectTime(twisted, 3e5 / (kt * rb) / omega, "torsion");
-  EXPECT_NEAR(twisted.ledger.dissipatedBreakage, 0.5 * kt * 2 * inertia * std::pow(3e5 / (kt * rb), 2), 0.01 * twisted.ledger.dissipatedBreakage);
+  EXPECT_NEAR(twisted.ledger.dissipatedBreakage, 0.5 * kt * 2 * inertia * std::pow(3e5 / (kt * rb), 2),
+              0.01 * twisted.ledger.dissipatedBreakage);
   expectTime(pull(shear, {0, v, 0}, Vec3::Zero()), 3e5 / kt / v, "shear");
   // Pressed at 3 v while it shears at v: τ_max + σ_c tan φ is reached when k_t v t = τ_max + 3 k_n v t tan φ.
   const double slope = 0.15;
-  expectTime(pull({never, never, 1e3, slope, never}, {-0.3 * v, 0.1 * v, 0}, Vec3::Zero()), 1e3 / (0.1 * v * (kt - 3 * slope * k)), "shear under pressure");
+  expectTime(pull({never, never, 1e3, slope, never}, {-0.3 * v, 0.1 * v, 0}, Vec3::Zero()), 1e3 / (0.1 * v * (kt - 3 * slope * k)),
+             "shear under pressure");
   expectTime(pull({never, never, never, 0, 1.03}, {v, 0, 0}, Vec3::Zero()), 0.03 * 2.45e-3 / v, "distance");
 }
 
@@ -236,7 +244,8 @@ TEST(Breakage, IsBooked) {
     const auto residual = [&](double dt) {
       Scenario s = cluster(Integrator::velocityVerlet);
       s.model.bonds[0].damping = damping;
-      s.model.bonds[0].dampingOf = damping == BondDamping::exponential ? std::array{2e3, 2e3, 2e3, 2e3} : std::array{0.05, 0.05, 0.05, 0.05};
+      s.model.bonds[0].dampingOf =
+          damping == BondDamping::exponential ? std::array{2e3, 2e3, 2e3, 2e3} : std::array{0.05, 0.05, 0.05, 0.05};
       s.model.bonds[0].strength.tension = 4e4;
       s.model.bonds[0].strength.shear = 4e4;
       Simulation sim = s.start(dt);
@@ -367,7 +376,8 @@ TEST(WallBonds, CarryAGrainAlong) {
       s.model.integrator = integrator;
       s.model.gravity = {0, 0, -9.81};
       s.wall(Surface(rectangle(-0.02, 0.02, -0.02, 0.02, 0, 1, 1)),
-             WallMotion({{Oscillation{{1e-3, 2e-4, -4e-4}, 60, 0.3}, 0, 1e9}, {Rotation{{0.01, 0, 0}, Vec3(1, 1, 2).normalized(), 30}, 0, 1e9}}));
+             WallMotion(
+                 {{Oscillation{{1e-3, 2e-4, -4e-4}, 60, 0.3}, 0, 1e9}, {Rotation{{0.01, 0, 0}, Vec3(1, 1, 2).normalized(), 30}, 0, 1e9}}));
       s.grain(2e-5, 1e-3, {3e-3, 1e-3, -1.05e-3});
       Simulation sim = s.start(dt);
       sim.advance(static_cast<std::uint64_t>(std::llround(0.03 / dt)));

@@ -86,8 +86,8 @@ Orders ordersOf(Scenario (*make)(Integrator), Integrator integrator, double dt, 
     residual[static_cast<std::size_t>(k)] = end.residual;
   }
   const Orders orders{std::log2(error[0] / error[1]), std::log2(residual[0] / residual[1])};
-  fmt::print("  {}: errors {:.1e} {:.1e} m, order {:.2f}; residuals {:.1e} {:.1e} J, order {:.2f}\n", schemeOf(integrator).name, error[0], error[1],
-             orders.way, residual[0], residual[1], orders.residual);
+  fmt::print("  {}: errors {:.1e} {:.1e} m, order {:.2f}; residuals {:.1e} {:.1e} J, order {:.2f}\n", schemeOf(integrator).name, error[0],
+             error[1], orders.way, residual[0], residual[1], orders.residual);
   return orders;
 }
 
@@ -99,14 +99,16 @@ TEST(ChangingSteps, KeepTheOrderOfContacts) {
 }
 
 TEST(ChangingSteps, KeepTheOrderOfBonds) {
-  const Orders verlet = ordersOf(joined, Integrator::velocityVerlet, 2e-6, 12), euler = ordersOf(joined, Integrator::symplecticEuler, 2e-6, 12);
+  const Orders verlet = ordersOf(joined, Integrator::velocityVerlet, 2e-6, 12),
+               euler = ordersOf(joined, Integrator::symplecticEuler, 2e-6, 12);
   EXPECT_GT(verlet.way, 1.8);
   EXPECT_GT(euler.way, 0.8);
 }
 
 // The times are those that were asked for, from the second step on.
 TEST(ChangingSteps, BeginWithTheSecondStep) {
-  for (const Integrator integrator : {Integrator::explicitEuler, Integrator::symplecticEuler, Integrator::velocityVerlet, Integrator::rungeKutta}) {
+  for (const Integrator integrator :
+       {Integrator::explicitEuler, Integrator::symplecticEuler, Integrator::velocityVerlet, Integrator::rungeKutta}) {
     Simulation sim = held(integrator).start(1e-6);
     sim.advance(10);
     sim.setTimeStep(3e-6);

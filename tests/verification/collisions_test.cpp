@@ -1,6 +1,6 @@
-// One collision of Hertz and Mindlin, at parameters drawn at random: unequal spheres of unequal materials, oblique and spinning, and a sphere on
-// the face, edge and corner of a cube that stands or moves. The answer is known from an integration that shares no line with the program:
-// the equations N6–N8, T0–T4, T7, T8 and R3–R5 of docs/physics.md in steps fifty times finer.
+// One collision of Hertz and Mindlin, at parameters drawn at random: unequal spheres of unequal materials, oblique and spinning, and a
+// sphere on the face, edge and corner of a cube that stands or moves. The answer is known from an integration that shares no line with the
+// program: the equations N6–N8, T0–T4, T7, T8 and R3–R5 of docs/physics.md in steps fifty times finer.
 
 #include <functional>
 #include <optional>

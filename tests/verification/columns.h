@@ -9,14 +9,14 @@ namespace tsubu::sim::test {
 
 struct Creep {
   std::uint64_t steps = 0;  ///< while it was watched
-  double moved = 0;     ///< largest displacement of a grain while it was watched, in radii
-  double deepest = 0;   ///< deepest overlap, in radii
-  double kinetic = 0;   ///< energy left at the end over what was dissipated
-  double residual = 0;  ///< of the ledger
+  double moved = 0;         ///< largest displacement of a grain while it was watched, in radii
+  double deepest = 0;       ///< deepest overlap, in radii
+  double kinetic = 0;       ///< energy left at the end over what was dissipated
+  double residual = 0;      ///< of the ledger
 };
 
-/// `count` unequal grains with friction in a shaft `across` diameters wide; watched for `watched` s after `settling` s, or for so many steps
-/// where that is more than a thousand.
+/// `count` unequal grains with friction in a shaft `across` diameters wide; watched for `watched` s after `settling` s, or for so many
+/// steps where that is more than a thousand.
 inline Creep creepOfColumn(int count, int across, Integrator integrator, double settling, double watched) {
   const double r = 2e-3, step = 2.3 * r, stiffness = 1000;
   Scenario s;
@@ -65,8 +65,8 @@ inline Creep creepOfColumn(int count, int across, Integrator integrator, double 
   return creep;
 }
 
-/// Grains one upon the other, each overlap that of the weight above it. Nothing holds them at the sides: on one vertical line no force has a
-/// part across it, not even by rounding, so they do not buckle.
+/// Grains one upon the other, each overlap that of the weight above it. Nothing holds them at the sides: on one vertical line no force has
+/// a part across it, not even by rounding, so they do not buckle.
 struct Stack {
   static constexpr double r = 1e-3, density = 2500, gravity = 9.81;
   static constexpr double deepest = 0.05 * r;  ///< m: overlap of the lowest two
@@ -112,8 +112,8 @@ struct Stack {
   }
 };
 
-/// Displacements that rounding brings forth: every step rounds every place anew, to `ulp` at most, so they grow as the root of the number of
-/// steps and not with it. Three times that, for the largest of so many grains.
+/// Displacements that rounding brings forth: every step rounds every place anew, to `ulp` at most, so they grow as the root of the number
+/// of steps and not with it. Three times that, for the largest of so many grains.
 inline double roundedAway(double ulp, std::uint64_t steps) { return 3 * ulp * std::sqrt(static_cast<double>(steps)); }
 
 struct Standing {

@@ -91,9 +91,9 @@ double worstEnergyError(Integrator integrator, double dt, std::uint64_t steps, s
   return worst;
 }
 
-// A million steps in all. Within a contact the scheme keeps an energy of its own to rounding; where a contact begins and ends the spring has
-// a kink, and each passage leaves an error of third order, up or down as it happens. The sum walks at random and does not drift:
-// far better than second order at a given time, and small. One walk says little of the next: the mean square of several is compared.
+// A million steps in all. Within a contact the scheme keeps an energy of its own to rounding; where a contact begins and ends the spring
+// has a kink, and each passage leaves an error of third order, up or down as it happens. The sum walks at random and does not drift: far
+// better than second order at a given time, and small. One walk says little of the next: the mean square of several is compared.
 TEST(ClosedSystem, EnergyOfElasticGrainsDoesNotDrift) {
   // ω Δt = 0.045 and twice that, for the lightest pair: ω² = 2k/m with m = 3e-5.
   const int walks = 6;
@@ -133,7 +133,8 @@ TEST(Ledger, ClosesAtTheOrderOfTheScheme) {
     for (const Integrator integrator : integrators) {
       const double coarse = residualOfBox(integrator, rolling, 2e-6, 0.04), fine = residualOfBox(integrator, rolling, 5e-7, 0.04);
       const double order = std::log(coarse / fine) / std::log(4.0);
-      fmt::print("  ledger residual, {}, rolling {}: {:.2e} at 2 µs, {:.2e} at 0.5 µs, order {:.2f}\n", nameOf(integrator), rolling, coarse, fine, order);
+      fmt::print("  ledger residual, {}, rolling {}: {:.2e} at 2 µs, {:.2e} at 0.5 µs, order {:.2f}\n", nameOf(integrator), rolling, coarse,
+                 fine, order);
       const bool verlet = integrator == Integrator::velocityVerlet;
       EXPECT_LT(fine, verlet ? 2e-4 : 1e-2);
       EXPECT_GT(order, verlet ? 1.5 : 0.7);
@@ -173,8 +174,8 @@ TEST(Ledger, ClosesWithInletsAndSinks) {
         sim.ledger();
       }
       const Ledger end = sim.ledger();
-      fmt::print("  ledger residual with inlet and sink, {}, {:.0e} s: {:.2e} ({} in, {} out)\n", nameOf(integrator), dt, end.residualFraction(),
-                 sim.counts().inserted, sim.counts().removed);
+      fmt::print("  ledger residual with inlet and sink, {}, {:.0e} s: {:.2e} ({} in, {} out)\n", nameOf(integrator), dt,
+                 end.residualFraction(), sim.counts().inserted, sim.counts().removed);
       EXPECT_GT(sim.counts().removed, 5u);
       EXPECT_GT(end.inserted, 0);
       if (last > 0) {

@@ -73,7 +73,9 @@ TEST(Continuous, ObliqueKeepsBothMomentaAndTheAccount) {
           EXPECT_LT((after.momentum - before.momentum).norm(), 1e-12 * before.momentum.norm());
           EXPECT_LT((angular(after) - angular(before)).norm(), 1e-11 * angular(before).norm());
           EXPECT_LT(std::abs(after.residual()), 1e-11 * before.mechanical());
-          if (e == 1 && mu == 0) { EXPECT_NEAR(after.mechanical(), before.mechanical(), 1e-12 * before.mechanical()); }
+          if (e == 1 && mu == 0) {
+            EXPECT_NEAR(after.mechanical(), before.mechanical(), 1e-12 * before.mechanical());
+          }
           EXPECT_GE(after.dissipatedFriction, 0);
         }
       }
@@ -152,7 +154,8 @@ TEST(Continuous, ACrowdKeepsItsAccountAndItsBits) {
     s.model.watch.overlapLimit = 0.5;
     Random random(1, 1);
     for (int k = 0; k < 64; ++k)
-      s.grain(1e-5 * (1 + k % 3), 1e-3, 4e-3 * Vec3(k % 4 + 1, k / 4 % 4 + 1, k / 16 + 1), 200 * Vec3(random.normal(), random.normal(), random.normal()));
+      s.grain(1e-5 * (1 + k % 3), 1e-3, 4e-3 * Vec3(k % 4 + 1, k / 4 % 4 + 1, k / 16 + 1),
+              200 * Vec3(random.normal(), random.normal(), random.normal()));
     for (int axis = 0; axis < 3; ++axis) {
       s.plane(Vec3::Zero(), Vec3::Unit(axis));
       s.plane(Vec3::Constant(0.02), -Vec3::Unit(axis));

@@ -18,8 +18,8 @@ TEST(Column, OfThreeHundredGrainsDoesNotCreep) {
   EXPECT_LT(creep.residual, 3e-2);
 }
 
-// Ten thousand grains one upon the other in their exact equilibrium, without any damping: the lowest contact carries ten thousand times what the
-// topmost does, and only rounding moves anything. extremes_slow_test.cpp has a million steps.
+// Ten thousand grains one upon the other in their exact equilibrium, without any damping: the lowest contact carries ten thousand times
+// what the topmost does, and only rounding moves anything. extremes_slow_test.cpp has a million steps.
 TEST(Column, OfTenThousandGrainsStands) {
   for (const std::string_view law : {"linear", "hertz"}) {
     const std::uint64_t steps = 100000;
@@ -30,7 +30,7 @@ TEST(Column, OfTenThousandGrainsStands) {
     EXPECT_LT(seen.moved, bound) << law;
     EXPECT_EQ(seen.aside, 0) << law;
     EXPECT_LT(seen.fastest, 2 * stack.omega() * bound) << law;  // no grain swings faster than 2 √(k/m)
-    EXPECT_LT(seen.residual, 1e-13) << law;  // sums of 10⁴ terms
+    EXPECT_LT(seen.residual, 1e-13) << law;                     // sums of 10⁴ terms
   }
 }
 

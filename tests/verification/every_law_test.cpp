@@ -99,8 +99,8 @@ TEST(EveryLaw, HasOneHash) {
   useKernels(widest);
 }
 
-// Contacts in single precision: the same bits everywhere too. The same number is added to one partner and taken from the other, but the sums
-// are single numbers: momenta and the account are kept to the digits of these.
+// Contacts in single precision: the same bits everywhere too. The same number is added to one partner and taken from the other, but the
+// sums are single numbers: momenta and the account are kept to the digits of these.
 TEST(EveryLaw, MixedPrecisionKeepsMomentaAndAccountAndHasOneHash) {
   const std::string widest(kernels().isa);
   int laws = 0;
@@ -168,7 +168,8 @@ TEST(EveryLaw, SeveralClassesAreOneWhenAlike) {
     a.advance(300);
     b.advance(300);
     const Snapshot x = look(a), y = look(b);
-    for (std::size_t g = 0; g < 27; ++g) EXPECT_EQ(x.position[g], y.position[g]) << law.names[0] << ' ' << law.names[1] << ' ' << law.names[2];
+    for (std::size_t g = 0; g < 27; ++g)
+      EXPECT_EQ(x.position[g], y.position[g]) << law.names[0] << ' ' << law.names[1] << ' ' << law.names[2];
   }
 }
 

@@ -45,7 +45,8 @@ TEST(ExtremesSlow, ColumnOfTenThousandGrainsDoesNotCreep) {
 // Eighteen layers at rest, for a million steps.
 TEST(ExtremesSlow, ColumnAtRestForAMillionSteps) {
   const Creep creep = creepOfColumn(300, 4, Integrator::velocityVerlet, 1.0, 1e6);
-  fmt::print("  moved {:.1e} radii in {} steps, kinetic over dissipated {:.1e}, residual {:.1e}\n", creep.moved, creep.steps, creep.kinetic, creep.residual);
+  fmt::print("  moved {:.1e} radii in {} steps, kinetic over dissipated {:.1e}, residual {:.1e}\n", creep.moved, creep.steps, creep.kinetic,
+             creep.residual);
   EXPECT_GE(creep.steps, 1000000u);
   EXPECT_LT(creep.moved, 1e-2);
   EXPECT_LT(creep.kinetic, 1e-6);
@@ -58,8 +59,8 @@ TEST(ExtremesSlow, ColumnOfTenThousandGrainsStandsForAMillionSteps) {
     const Stack stack{law, 10000};
     const Standing seen = watch(stack, steps);
     const double bound = roundedAway(seen.ulp, steps);
-    fmt::print("  {}: {:.0f} waves, moved {:.1e} of a radius or {:.0f} units of the last place, fastest {:.1e} m/s, residual {:.1e}\n", law, seen.waves,
-               seen.moved / Stack::r, seen.moved / seen.ulp, seen.fastest, seen.residual);
+    fmt::print("  {}: {:.0f} waves, moved {:.1e} of a radius or {:.0f} units of the last place, fastest {:.1e} m/s, residual {:.1e}\n", law,
+               seen.waves, seen.moved / Stack::r, seen.moved / seen.ulp, seen.fastest, seen.residual);
     EXPECT_GT(seen.waves, 10) << law;
     EXPECT_LT(seen.moved, bound) << law;
     EXPECT_EQ(seen.aside, 0) << law;

@@ -196,7 +196,8 @@ TEST(Oblique, EnergyNeverGrows) {
       const double m2 = mass * std::pow(10.0, random.uniform(-2, 2)), r2 = radius * random.uniform(0.2, 3);
       const double dt = contactDuration(k, mass * m2 / (mass + m2), e, true) / 100;
       const double angle = random.uniform(0, 0.5 * pi) * (n % 4 == 0 ? 0.05 : 1), v = 0.5;  // every fourth grazes
-      const Vec3 axis = Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized(), across = axis.unitOrthogonal();
+      const Vec3 axis = Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized(),
+                 across = axis.unitOrthogonal();
       const double gap = 0.5 * v * std::sin(angle) * dt;
       const auto spin = [&] { return Vec3(random.uniform(-200, 200), random.uniform(-200, 200), random.uniform(-200, 200)); };
       s.grain(mass, radius, (radius + r2 + gap) * axis, v * (std::cos(angle) * across - std::sin(angle) * axis), spin());
@@ -230,7 +231,8 @@ Scenario onIncline(Integrator integrator, double angle, double mu) {
 
 // A block: a = g (sin α − μ cos α) above the angle of friction, at rest below it.
 TEST(Held, SlidesAsABlockAndSticks) {
-  for (const Integrator integrator : {Integrator::symplecticEuler, Integrator::velocityVerlet, Integrator::leapfrog, Integrator::rungeKutta}) {
+  for (const Integrator integrator :
+       {Integrator::symplecticEuler, Integrator::velocityVerlet, Integrator::leapfrog, Integrator::rungeKutta}) {
     for (const double mu : {0.2, 0.5}) {
       const double g = 9.81, angle = std::atan(mu) + 0.15;
       Simulation sim = onIncline(integrator, angle, mu).start(5e-6);
@@ -243,7 +245,8 @@ TEST(Held, SlidesAsABlockAndSticks) {
       finer.advance(16000);
       const bool secondOrder = integrator == Integrator::velocityVerlet || integrator == Integrator::rungeKutta;
       EXPECT_LT(ledger.residualFraction(), secondOrder ? 5e-3 : 6e-2) << schemeOf(integrator).name;
-      EXPECT_LT(finer.ledger().residualFraction(), (secondOrder ? 0.12 : 0.3) * ledger.residualFraction() + 1e-6) << schemeOf(integrator).name;
+      EXPECT_LT(finer.ledger().residualFraction(), (secondOrder ? 0.12 : 0.3) * ledger.residualFraction() + 1e-6)
+          << schemeOf(integrator).name;
       EXPECT_EQ(ledger.kineticRotation, 0);
       EXPECT_TRUE(look(sim).angularVelocity.empty());
 

@@ -12,9 +12,7 @@ struct Elastic {
 };
 constexpr Elastic rigid{1e25, 0.3, 1};
 
-double effective(Elastic a, Elastic b) {
-  return 1 / ((1 - a.poisson * a.poisson) / a.young + (1 - b.poisson * b.poisson) / b.young);
-}
+double effective(Elastic a, Elastic b) { return 1 / ((1 - a.poisson * a.poisson) / a.young + (1 - b.poisson * b.poisson) / b.young); }
 
 /// Scenes of spheres with elastic constants; walls are of a material of their own.
 struct HertzScene : Scenario {
@@ -75,7 +73,8 @@ TEST(Hertz, RestitutionIsWhatWasAskedFor) {
   for (const bool tension : {false, true})
     for (int k = 1; k <= 20; ++k)
       for (const double ratio : {0.0, 1.0, 17.0, 1e3, 1e6})
-        EXPECT_NEAR(restitutionOf(0.05 * k, tension, ratio, 0.37), 0.05 * k, 1e-3) << (tension ? "tension, " : "") << "ratio of masses " << ratio;
+        EXPECT_NEAR(restitutionOf(0.05 * k, tension, ratio, 0.37), 0.05 * k, 1e-3)
+            << (tension ? "tension, " : "") << "ratio of masses " << ratio;
 }
 
 TEST(Hertz, RestitutionDoesNotDependOnSpeed) {
@@ -177,7 +176,8 @@ TEST(ChungOoi, Test4ObliqueImpact) {
   const Elastic oxide{380e9, 0.23, 4000};
   constexpr struct {
     double angle, ratio, spin;
-  } published[] = {{35, 0.7398, 581.9}, {40, 0.7829, 544.2}, {50, 0.8471, 456.7}, {60, 0.8948, 355.2}, {70, 0.9337, 243.0}, {80, 0.9679, 123.4}};
+  } published[] = {{35, 0.7398, 581.9}, {40, 0.7829, 544.2}, {50, 0.8471, 456.7},
+                   {60, 0.8948, 355.2}, {70, 0.9337, 243.0}, {80, 0.9679, 123.4}};
   for (const auto& row : published) {
     const double a = row.angle * pi / 180;
     const After after = obliqueImpact(oxide, 2.5e-3, 3.9 * Vec3(std::sin(a), 0, -std::cos(a)), Vec3::Zero(), 0.092, 0.98);

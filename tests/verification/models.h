@@ -33,7 +33,8 @@ class Scenario {
   }
 
   /// Returns the id. The radius in m, the mass in kg.
-  std::uint32_t grain(double mass, double radius, const Vec3& position, const Vec3& velocity = Vec3::Zero(), const Vec3& spin = Vec3::Zero()) {
+  std::uint32_t grain(double mass, double radius, const Vec3& position, const Vec3& velocity = Vec3::Zero(),
+                      const Vec3& spin = Vec3::Zero()) {
     Material material;
     material.name = "m" + std::to_string(model.materials.size());
     material.values[Property::density] = mass / (4.0 / 3.0 * pi * radius * radius * radius);

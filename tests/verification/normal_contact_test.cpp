@@ -2,8 +2,8 @@
 
 #include <complex>
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 #include "verification/models.h"
 
@@ -14,7 +14,8 @@ constexpr double stiffness = 1234, speed = 0.37;
 
 /// Restitution of one head-on collision of a grain with a wall (other mass 0) or another grain, obliquely placed in space, with the
 /// beginning of the contact at `phase` of a step. Steps are `share` of the contact's duration.
-double measuredRestitution(Integrator integrator, bool tension, double e, double mass, double otherMass, double phase, double share = 0.01) {
+double measuredRestitution(Integrator integrator, bool tension, double e, double mass, double otherMass, double phase,
+                           double share = 0.01) {
   Scenario s;
   s.model.integrator = integrator;
   s.model.contact.tension = tension;
@@ -72,9 +73,9 @@ TEST(Restitution, ElasticCollisionKeepsItsEnergy) {
   EXPECT_NEAR(measuredRestitution(Integrator::symplecticEuler, false, 1, 3e-5, 2e-4, 0.3), 1, 1e-5);
 }
 
-// E6. In the first step of a contact, begun a time τ ago, the grains have fallen in by uτ; the force pushes for half a step, as the scheme has it,
-// where it should have risen in τ. What is left is ½ k u² τ(τ − Δt) + F²Δt²/8m*, of second order; over what has been turned over until then it
-// is all there is. A spring and a dashpot alike: what the dashpot takes is booked to the last bit.
+// E6. In the first step of a contact, begun a time τ ago, the grains have fallen in by uτ; the force pushes for half a step, as the scheme
+// has it, where it should have risen in τ. What is left is ½ k u² τ(τ − Δt) + F²Δt²/8m*, of second order; over what has been turned over
+// until then it is all there is. A spring and a dashpot alike: what the dashpot takes is booked to the last bit.
 TEST(LinearContact, ResidualOfTheFirstTouchIsThatOfAHalfStep) {
   for (const double e : {1.0, 0.3}) {
     for (const double dt : {4e-6, 2e-6}) {
@@ -141,15 +142,13 @@ TEST(LinearContact, TwoStackedSpheresBetweenPlates) {
   const auto damping = [&](double m) { return 2 * dampingRatio(e, true) * std::sqrt(m * k); };
   const double c1 = damping(m1), c2 = damping(m2), c12 = damping(m1 * m2 / (m1 + m2));
   Eigen::Matrix4d A;
-  A << 0, 0, 1, 0,
-       0, 0, 0, 1,
-       -2 * k / m1, k / m1, -(c1 + c12) / m1, c12 / m1,
-       k / m2, -2 * k / m2, c12 / m2, -(c2 + c12) / m2;
+  A << 0, 0, 1, 0, 0, 0, 0, 1, -2 * k / m1, k / m1, -(c1 + c12) / m1, c12 / m1, k / m2, -2 * k / m2, c12 / m2, -(c2 + c12) / m2;
   // Overlaps r − y1, 2r − (y2 − y1) and r − (H − y2).
   const Eigen::Vector4d b(0, 0, -g + (k * r - k * 2 * r) / m1, -g + (k * 2 * r - k * (r - height)) / m2);
   const Eigen::Vector4d rest = A.fullPivLu().solve(-b);
   const Eigen::EigenSolver<Eigen::Matrix4d> modes(A);
-  const Eigen::Vector4cd amplitude = modes.eigenvectors().fullPivLu().solve((Eigen::Vector4d(4.5e-4, 13.5e-4, 0, 0) - rest).cast<std::complex<double>>());
+  const Eigen::Vector4cd amplitude =
+      modes.eigenvectors().fullPivLu().solve((Eigen::Vector4d(4.5e-4, 13.5e-4, 0, 0) - rest).cast<std::complex<double>>());
 
   const double dt = 2e-7;  // ω Δt = 0.004: errors of 1e-6 of the amplitude
   Simulation sim = s.start(dt);

@@ -14,8 +14,8 @@ Scenario mixed() {
   return s;
 }
 
-// An overlap is a small difference of large numbers: at a ten-millionth of the radius nothing would be left of it if the distance were rounded
-// to a single number first. One grain lies on another, which rests on a plane: δ = m g/k, far away from the origin.
+// An overlap is a small difference of large numbers: at a ten-millionth of the radius nothing would be left of it if the distance were
+// rounded to a single number first. One grain lies on another, which rests on a plane: δ = m g/k, far away from the origin.
 TEST(MixedPrecision, ResolvesOverlapsBelowARoundedDistance) {
   constexpr double k = 2e5, mass = 3e-5, g = 9.81, lower = 2.1e-3, upper = 1.7e-3;
   const double overlap = mass * g / k;
@@ -41,7 +41,8 @@ TEST(MixedPrecision, CollisionsEndAsInDouble) {
   Random random(3, 7);
   for (int n = 0; n < 40; ++n) {
     Scenario s;
-    s.model.contact = {n % 2 ? "hertz" : "linear", n % 4 < 2 ? "spring" : "none", n % 4 < 2 && n % 3 ? "elastic_plastic" : "none", n % 5 == 0};
+    s.model.contact = {n % 2 ? "hertz" : "linear", n % 4 < 2 ? "spring" : "none", n % 4 < 2 && n % 3 ? "elastic_plastic" : "none",
+                       n % 5 == 0};
     s.pair[Property::normalStiffness] = 3000;
     s.pair[Property::tangentialStiffness] = 1200;
     s.pair[Property::restitution] = random.uniform(0.1, 0.9);
@@ -65,7 +66,7 @@ TEST(MixedPrecision, CollisionsEndAsInDouble) {
     ASSERT_EQ(x.angularVelocity.size(), y.angularVelocity.size());
     for (std::size_t g = 0; g < 2; ++g) {
       EXPECT_LT((x.velocity[g] - y.velocity[g]).norm(), 1e-5) << n;
-      if (x.angularVelocity.empty()) continue;  // without friction nothing turns
+      if (x.angularVelocity.empty()) continue;                                     // without friction nothing turns
       EXPECT_LT((x.angularVelocity[g] - y.angularVelocity[g]).norm(), 2e-2) << n;  // of some 100 rad/s
     }
   }
@@ -103,15 +104,23 @@ TEST(MixedPrecision, FollowsDoubleWhateverElseTheSceneHas) {
       {"explicit Euler", [](Scenario& s) { s.model.integrator = Integrator::explicitEuler; }},
       {"leapfrog", [](Scenario& s) { s.model.integrator = Integrator::leapfrog; }},
       {"central differences", [](Scenario& s) { s.model.integrator = Integrator::centralDifferences; }},
-      {"nothing turns", [](Scenario& s) { s.model.contact = {"linear", "none", "none", false}; }},
-      {"periodic", [](Scenario& s) {
+      {"nothing turns",
+       [](Scenario& s) {
+         s.model.contact = {"linear", "none", "none", false};
+       }},
+      {"periodic",
+       [](Scenario& s) {
          s.model.periodic = {true, true, false};
          s.model.domain = Box(Vec3(-8.8e-3, -8.8e-3, -1), Vec3(8.8e-3, 8.8e-3, 1));
          for (Grain& grain : s.model.grains) grain.velocity *= -1;  // to meet across the boundary
        }},
-      {"a wall under load", [](Scenario& s) { s.plane({0, 0, 9e-3}, {0, 0, -1}).body = WallBody{{0, 0, 1}, 2e-3, 0, true, 0, -0.3, 0}; }},
+      {"a wall under load",
+       [](Scenario& s) {
+         s.plane({0, 0, 9e-3}, {0, 0, -1}).body = WallBody{{0, 0, 1}, 2e-3, 0, true, 0, -0.3, 0};
+       }},
       {"damping", [](Scenario& s) { s.model.fields.damping.emplace().rate = 3; }},
-      {"continuous", [](Scenario& s) {
+      {"continuous",
+       [](Scenario& s) {
          s.model.continuous = true;
          s.grain(4e-5, 2e-3, {0, 0, 0.03}, {0, 0, -60});
          s.model.watch.stop = false;

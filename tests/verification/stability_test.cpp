@@ -2,9 +2,9 @@
 
 #include <complex>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 #include "verification/models.h"
 
@@ -53,7 +53,8 @@ double tangentialRadius(double W, double zeta) {
 TEST(Stability, TangentialSpringsOfVerletNeedTheirLeastDashpot) {
   for (const double W : {0.05, 0.1, 0.2}) EXPECT_NEAR(tangentialRadius(W, 0) - 1, std::pow(W, 4) / 8, 0.1 * std::pow(W, 4) / 8);
   for (double W = 0.01; W < std::numbers::sqrt2; W += 0.01) {
-    for (double zeta = 0.5 * W * W * W; W <= bound(2, zeta); zeta = std::max(1.3 * zeta, 1e-6)) EXPECT_LE(tangentialRadius(W, zeta), 1 + 1e-12) << W << " " << zeta;
+    for (double zeta = 0.5 * W * W * W; W <= bound(2, zeta); zeta = std::max(1.3 * zeta, 1e-6))
+      EXPECT_LE(tangentialRadius(W, zeta), 1 + 1e-12) << W << " " << zeta;
   }
 }
 
@@ -155,9 +156,9 @@ Scenario block(Random& random, double ratioOfMasses) {
   return s;
 }
 
-// S3, the step that is chosen before any contact is known, holds with a margin of a fifth: grains with twelve neighbours, light ones among heavy ones and between
-// walls, springs across stiffer than those along the contact, rolling springs. What is stable cannot gain energy (but for the
-// scheme's own swing, which at the limit is no longer small).
+// S3, the step that is chosen before any contact is known, holds with a margin of a fifth: grains with twelve neighbours, light ones among
+// heavy ones and between walls, springs across stiffer than those along the contact, rolling springs. What is stable cannot gain energy
+// (but for the scheme's own swing, which at the limit is no longer small).
 TEST(Stability, ChosenStepIsSafeForPackedGrains) {
   for (const Integrator integrator : {Integrator::symplecticEuler, Integrator::velocityVerlet}) {
     for (const double ratio : {1.0, 1e3}) {
@@ -172,7 +173,7 @@ TEST(Stability, ChosenStepIsSafeForPackedGrains) {
             s.pair[Property::restitution] = e;
             s.pair[Property::rollingFriction] = 0.8;
             EXPECT_LT(growth(s, 1, 1000), 2) << "ratio " << ratio << ", k_t/k_n " << kt << ", e " << e << ", rolling " << rolling << ", "
-                                                 << (integrator == Integrator::velocityVerlet ? "Verlet" : "Euler");
+                                             << (integrator == Integrator::velocityVerlet ? "Verlet" : "Euler");
           }
         }
       }

@@ -160,7 +160,8 @@ TEST(MovingWalls, ConveyorCarriesABall) {
 TEST(MovingWalls, BallOnATurntable) {
   const double table = 5, v = 0.02;
   Scenario s = frictional(1, 0.5);
-  s.plane(Vec3::Zero(), Vec3::UnitZ(), WallMotion({{Rotation{Vec3::Zero(), Vec3::UnitZ(), table}, 0, std::numeric_limits<double>::infinity()}}));
+  s.plane(Vec3::Zero(), Vec3::UnitZ(),
+          WallMotion({{Rotation{Vec3::Zero(), Vec3::UnitZ(), table}, 0, std::numeric_limits<double>::infinity()}}));
   // Rolling on the table at (ρ, 0): v − Ω ẑ × x = r ω × ẑ-part. Start with the rolling spin for velocity (0, v, 0).
   const double rho = 0.03;
   const Vec3 slip = Vec3(0, v - table * rho, 0);

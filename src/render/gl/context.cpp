@@ -34,8 +34,8 @@ std::string textOf(const GlFunctions& gl, GLenum name) {
 
 Context::Context() : state_(std::make_unique<State>()) {
   setenv("GALLIUM_OVERRIDE_CPU_CAPS", "sse4.1", 0);
-  const int attributes[] = {OSMESA_FORMAT,  OSMESA_RGBA,         OSMESA_PROFILE,         OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION,
-                            4, OSMESA_CONTEXT_MINOR_VERSION, 5, 0};
+  const int attributes[] = {
+      OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, 4, OSMESA_CONTEXT_MINOR_VERSION, 5, 0};
   state_->context = OSMesaCreateContextAttribs(attributes, nullptr);
   if (!state_->context) {
     throw Error(ErrorKind::simulation, "OSMesa cannot make an OpenGL 4.5 core context, so no picture can be drawn.",

@@ -43,8 +43,7 @@ Texture::Texture(const GlFunctions& gl, GLenum format, int width, int height) : 
   gl.TextureParameteri(name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-Framebuffer::Framebuffer(const GlFunctions& gl, const Texture* colour, const Texture* depth)
-    : GlName(gl, created(gl.CreateFramebuffers)) {
+Framebuffer::Framebuffer(const GlFunctions& gl, const Texture* colour, const Texture* depth) : GlName(gl, created(gl.CreateFramebuffers)) {
   if (colour) gl.NamedFramebufferTexture(name(), GL_COLOR_ATTACHMENT0, colour->name(), 0);
   if (depth) gl.NamedFramebufferTexture(name(), GL_DEPTH_ATTACHMENT, depth->name(), 0);
   gl.NamedFramebufferDrawBuffer(name(), colour ? GL_COLOR_ATTACHMENT0 : GL_NONE);

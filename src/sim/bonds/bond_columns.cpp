@@ -5,8 +5,9 @@ namespace tsubu::sim {
 void BondColumns::add(std::int32_t first, std::int32_t second, const BondBody& body, const BondMemory& memory) {
   i.push_back(first);
   j.push_back(second);
-  const double values[columns] = {memory.shear.x, memory.shear.y, memory.shear.z, memory.turn.x, memory.turn.y, memory.turn.z,    memory.rest,
-                                  body.along,     body.bend,      body.radius,    body.length,   body.critical, body.bendCritical};
+  const double values[columns] = {memory.shear.x, memory.shear.y, memory.shear.z,   memory.turn.x, memory.turn.y,
+                                  memory.turn.z,  memory.rest,    body.along,       body.bend,     body.radius,
+                                  body.length,    body.critical,  body.bendCritical};
   for (std::size_t c = 0; c < columns; ++c) column[c].push_back(values[c]);
 }
 

@@ -64,10 +64,10 @@ struct BondRows {
 
 /// What a pass over the bonds of one slab finds. Sums in eight lanes, as in Accounts.
 struct BondFindings {
-  double loss[8] = {};      ///< J: taken by dampers in this step
-  double relaxed[8] = {};   ///< J: taken by relaxation since the step before
+  double loss[8] = {};     ///< J: taken by dampers in this step
+  double relaxed[8] = {};  ///< J: taken by relaxation since the step before
   std::vector<std::int32_t> broken;
-  double released = 0;      ///< J: what the springs of those held half a step ago, when they last pulled
+  double released = 0;  ///< J: what the springs of those held half a step ago, when they last pulled
 
   static double sum(const double* lanes) {
     double total = 0;

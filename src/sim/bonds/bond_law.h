@@ -51,16 +51,20 @@ inline BondKind kindOf(const Bonding& bonding) {
     kind.eta[twisting] *= std::sqrt(2 * kind.shearOverNormal);
   }
   const BondStrength& strength = kind.strength = bonding.strength;
-  kind.limits = {bonding.modulus > 0 ? 0 : 1 / bonding.stiffness, bonding.modulus > 0 ? 1 / bonding.modulus : 0, strength.tension,
-                 strength.compression, strength.shear * bonding.stiffnessRatio, strength.pressureSlope * bonding.stiffnessRatio,
+  kind.limits = {bonding.modulus > 0 ? 0 : 1 / bonding.stiffness,
+                 bonding.modulus > 0 ? 1 / bonding.modulus : 0,
+                 strength.tension,
+                 strength.compression,
+                 strength.shear * bonding.stiffnessRatio,
+                 strength.pressureSlope * bonding.stiffnessRatio,
                  strength.stretch};
   return kind;
 }
 
 /// What is kept of a bond from step to step, in the directions of the world.
 struct BondMemory {
-  V3 shear{};    ///< s, m; at right angles to n
-  V3 turn{};     ///< θ, rad: torsion along n, bending across
+  V3 shear{};       ///< s, m; at right angles to n
+  V3 turn{};        ///< θ, rad: torsion along n, bending across
   double rest = 0;  ///< r_0, m
 };
 
@@ -77,9 +81,9 @@ inline constexpr double bondPi = 3.141592653589793;
 
 /// How the two grains move against each other: i − j, and sums i + j of r ω.
 struct BondMotion {
-  V3 velocity;   ///< m/s
-  V3 spinSum;    ///< r_i ω_i + r_j ω_j, m/s
-  V3 spin;       ///< ω_i − ω_j, rad/s
+  V3 velocity;  ///< m/s
+  V3 spinSum;   ///< r_i ω_i + r_j ω_j, m/s
+  V3 spin;      ///< ω_i − ω_j, rad/s
 };
 
 struct BondForce {
@@ -219,8 +223,9 @@ struct BondRelaxation {
 /// B5: what relaxation has taken between two states, J.
 TSUBU_INLINE double relaxedIn(const BondKind& kind, const BondSprings& k, const BondStrain& a, const BondStrain& b, double dt) {
   const double stretch = a.stretch + b.stretch, twist = a.twist + b.twist;
-  return 0.25 * dt * (kind.eta[along] * k.along * (stretch * stretch) + kind.eta[across] * k.across * norm2(a.shear + b.shear) +
-                      kind.eta[twisting] * k.twist * (twist * twist) + kind.eta[bending] * k.bend * norm2(a.bend + b.bend));
+  return 0.25 * dt *
+         (kind.eta[along] * k.along * (stretch * stretch) + kind.eta[across] * k.across * norm2(a.shear + b.shear) +
+          kind.eta[twisting] * k.twist * (twist * twist) + kind.eta[bending] * k.bend * norm2(a.bend + b.bend));
 }
 
 /// \brief The springs at the end of a step, from those at its beginning.
@@ -320,7 +325,8 @@ TSUBU_INLINE BondForce pullBond(const BondKind& kind, const BondBody& body, cons
   if constexpr (damping == BondDamping::percent || damping == BondDamping::viscous) {
     const BondSlip slip{now.velocity + cross(lever, now.spinSum), dot(now.velocity, n), now.spin, dot(now.spin, n)};
     const BondWrench held = heldBack<damping>(kind, body, strainOf(memory, n, r), slip, n);
-    result.loss = dt * (held.moreAlong * slip.along + dot(held.force, slip.velocity) + held.moreTwist * slip.twist + dot(held.moment, slip.spin));
+    result.loss =
+        dt * (held.moreAlong * slip.along + dot(held.force, slip.velocity) + held.moreTwist * slip.twist + dot(held.moment, slip.spin));
     wrench = wrench - held;
   }
   result.force = wrench.moreAlong * n + wrench.force;

@@ -26,7 +26,8 @@ Swing swingOf(const Bonding& bonding, const BondBody& body, double armI, double 
   double share = 1;
   Swing swing{};
   if (bonding.damping == BondDamping::percent) share += *std::max_element(bonding.dampingOf.begin(), bonding.dampingOf.end());
-  swing.stiffness = share * std::max({springs.along * inverseMass, springs.across * slipping + springs.bend * moments, springs.twist * moments});
+  swing.stiffness =
+      share * std::max({springs.along * inverseMass, springs.across * slipping + springs.bend * moments, springs.twist * moments});
   if (bonding.damping == BondDamping::viscous)
     swing.damping = std::max({kind.eta[along] * body.critical * inverseMass,
                               kind.eta[across] * body.critical * slipping + kind.eta[bending] * body.bendCritical * moments,
@@ -88,8 +89,7 @@ BondSwing swingOfBonds(const Model& model, bool laterOnly) {
         const GrainRow &a = state.rows[static_cast<std::size_t>(pair.i)], &b = state.rows[static_cast<std::size_t>(pair.j)];
         const double length = periods.nearest(Vec3(a.x, a.y, a.z) - Vec3(b.x, b.y, b.z)).norm(), arm = length / (a.radius + b.radius);
         const BondBody body = bodyOf(bonding, std::min(a.radius, b.radius), length, inertiaOf(a, b));
-        const Swing swing =
-            swingOf(bonding, body, arm * a.radius, arm * b.radius, a.inverseMass + b.inverseMass, momentOf(a), momentOf(b));
+        const Swing swing = swingOf(bonding, body, arm * a.radius, arm * b.radius, a.inverseMass + b.inverseMass, momentOf(a), momentOf(b));
         count(pair.i, swing, bonding);
         count(pair.j, swing, bonding);
       }

@@ -32,8 +32,9 @@ std::uint64_t keyOf(std::uint32_t a, std::uint32_t b) { return (std::uint64_t{st
 BondPass::BondPass(const Model& model) : shown_(model.showBonds) {
   for (const Bonding& bonding : model.bonds) {
     if (bonding.wall && model.walls[*bonding.wall].body)
-      throw Error(ErrorKind::scene, fmt::format("The bonds '{}' cannot hold on to the wall '{}', which moves under load.", bonding.name,
-                                                model.walls[*bonding.wall].name),
+      throw Error(ErrorKind::scene,
+                  fmt::format("The bonds '{}' cannot hold on to the wall '{}', which moves under load.", bonding.name,
+                              model.walls[*bonding.wall].name),
                   "give the wall a motion instead, or none");
     Kind kind;
     kind.bonding = &bonding;
@@ -108,7 +109,8 @@ void BondPass::settle(const World& world, Kind& kind, BondColumns& all, WallBond
   BondColumns far;
   // By places, lower and higher: numbers that compare at once.
   std::vector<std::pair<std::uint64_t, std::size_t>> order(all.size());
-  for (std::size_t k = 0; k < all.size(); ++k) order[k] = {keyOf(static_cast<std::uint32_t>(all.i[k]), static_cast<std::uint32_t>(all.j[k])), k};
+  for (std::size_t k = 0; k < all.size(); ++k)
+    order[k] = {keyOf(static_cast<std::uint32_t>(all.i[k]), static_cast<std::uint32_t>(all.j[k])), k};
   std::sort(order.begin(), order.end());
   for (const auto& [key, k] : order) {
     const auto low = static_cast<std::int32_t>(key >> 32), high = static_cast<std::int32_t>(key & 0xffffffff);
@@ -213,8 +215,8 @@ void BondPass::evaluateAcross(const World& world, Kind& kind, const BondRows& gr
     rows.back().x = x.x(), rows.back().y = x.y(), rows.back().z = x.z();
     if (!state.half.empty()) half.push_back(state.half[j]);
   }
-  kind.kernel(kind.constants, bonds, grains, {rows.data(), !state.half.empty() ? half.data() : nullptr, forces.data()}, world.way, stages_.front(),
-              kind.foundFar);
+  kind.kernel(kind.constants, bonds, grains, {rows.data(), !state.half.empty() ? half.data() : nullptr, forces.data()}, world.way,
+              stages_.front(), kind.foundFar);
   std::swap(owners, bonds.j);
   for (std::size_t k = 0; k < bonds.size(); ++k) {
     ForceRow& to = state.forces[static_cast<std::size_t>(bonds.j[k])];
@@ -360,7 +362,8 @@ void BondPass::make(const World& world, std::size_t number) {
 // --- accounts -----------------------------------------------------------------------------------------------------------
 
 namespace {
-double storedIn(const World& world, const BondKind& constants, const BondColumns& bonds, std::size_t k, const GrainRow& a, const GrainRow& b) {
+double storedIn(const World& world, const BondKind& constants, const BondColumns& bonds, std::size_t k, const GrainRow& a,
+                const GrainRow& b) {
   const Vec3 branch = between(world, a, b);
   const double r = branch.norm();
   const BondStrain strain = strainOf(bonds.memory(k), directionOf(branch, r), r);
@@ -368,7 +371,8 @@ double storedIn(const World& world, const BondKind& constants, const BondColumns
 }
 }  // namespace
 
-// Half of this step's kick belongs to the present instant where velocities live at half steps, none of it elsewhere; springs are of the instant.
+// Half of this step's kick belongs to the present instant where velocities live at half steps, none of it elsewhere; springs are of the
+// instant.
 void BondPass::account(const World& world, Ledger& ledger) const {
   const double share = schemeOf(world.model.integrator).behind;
   visit(world.state, [&](const Kind& kind, const BondColumns& bonds, std::size_t k, const std::vector<GrainRow>& second, bool) {

@@ -40,9 +40,9 @@ class BondPass : public ForcePass {
     BondKind constants;
     BondKernel kernel;
     std::vector<SlabBonds> slabs;
-    BondColumns far;          ///< those that reach beyond the next slab or across the boundary: one thread does them
+    BondColumns far;  ///< those that reach beyond the next slab or across the boundary: one thread does them
     BondFindings foundFar;
-    bool made = false;        ///< for a kind that is made once
+    bool made = false;  ///< for a kind that is made once
   };
 
   /// A pair whose bond broke while the grains were nearer than their radii: it touches at the distance at which it broke, which grows as
@@ -77,12 +77,12 @@ class BondPass : public ForcePass {
   std::unordered_set<std::uint64_t> known_;  ///< pairs that have been bonded: a pair is bonded once
   std::unordered_set<std::uint64_t> knownAtWalls_;
   std::uint64_t step_ = 0, nextSearch_ = 0;
-  double until_ = 0;      ///< s: no bonds are made after it
+  double until_ = 0;             ///< s: no bonds are made after it
   std::optional<double> shown_;  ///< s: for how long breaks are
   std::uint64_t holding_ = 0, broken_ = 0;
-  Tally loss_;            ///< J: dampers, per step
+  Tally loss_;  ///< J: dampers, per step
   double relaxed_ = 0, released_ = 0;
-  double silenced_ = 0;   ///< J: what contacts held when their grains were bonded
+  double silenced_ = 0;  ///< J: what contacts held when their grains were bonded
 };
 
 }  // namespace tsubu::sim

@@ -10,8 +10,8 @@ namespace tsubu::sim {
 
 namespace {
 
-constexpr std::uint64_t pairKey = 0x626f6e64;      // "bond"
-constexpr std::uint64_t footKey = 0x626f6e6477;    // "bondw"
+constexpr std::uint64_t pairKey = 0x626f6e64;    // "bond"
+constexpr std::uint64_t footKey = 0x626f6e6477;  // "bondw"
 
 bool drawn(const Bonding& bonding, std::uint64_t seed, std::uint64_t what, std::size_t kind, std::uint64_t ids) {
   return bonding.probability >= 1 || Random(seed, mix64(what + kind), ids).uniform() < bonding.probability;
@@ -42,9 +42,8 @@ std::vector<BondedPair> bondablePairs(const Bonding& bonding, std::size_t kind, 
     const Vec3 place = positionOf(row);
     grid.near(place, row.radius, g, found);
     if (grains.periods.any())
-      grains.periods.forImages(place, row.radius + largest + skin, [&](int number) {
-        grid.near(Vec3(place + grains.periods.shift(number)), row.radius, g, found);
-      });
+      grains.periods.forImages(place, row.radius + largest + skin,
+                               [&](int number) { grid.near(Vec3(place + grains.periods.shift(number)), row.radius, g, found); });
     for (const std::int32_t other : found) {
       if (other < g || other >= count) continue;  // every pair is found from both ends
       if (!(first && member(bonding.second, other)) && !(second && member(bonding.first, other))) continue;

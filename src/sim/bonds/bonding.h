@@ -12,8 +12,8 @@ namespace tsubu::sim {
 
 /// Which grains may be at an end of a bond.
 struct BondEnd {
-  std::optional<std::uint16_t> material;                           ///< absent: of any
-  std::uint32_t firstId = 0;                                       ///< ids from here …
+  std::optional<std::uint16_t> material;                             ///< absent: of any
+  std::uint32_t firstId = 0;                                         ///< ids from here …
   std::uint32_t lastId = std::numeric_limits<std::uint32_t>::max();  ///< … to before here
 
   bool holds(std::uint32_t id, std::uint16_t itsMaterial) const {
@@ -55,9 +55,9 @@ struct Bonding {
   BondStrength strength;
   BondDamping damping = BondDamping::none;
   std::array<double, bondWays> dampingOf{};  ///< a share (percent), 1/s (exponential), or a damping ratio (viscous), by BondWay
-  double start = 0, end = 0;          ///< s: bonds are made at `start`, or all the time from `start` to `end`
-  double probability = 1;             ///< that a pair is bonded, drawn once for each pair
-  bool contactBeyondRest = false;     ///< does the contact law of a bonded pair act when it is shorter than made? Otherwise never
+  double start = 0, end = 0;                 ///< s: bonds are made at `start`, or all the time from `start` to `end`
+  double probability = 1;                    ///< that a pair is bonded, drawn once for each pair
+  bool contactBeyondRest = false;            ///< does the contact law of a bonded pair act when it is shorter than made? Otherwise never
 
   bool operator==(const Bonding&) const = default;
 };

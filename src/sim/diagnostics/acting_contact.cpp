@@ -13,8 +13,8 @@ ActingContact contactIn(const StageIn<Real>& s, int q, std::int32_t first, std::
 }
 
 template <class Real>
-void passNoting(PairKernelIn<Real> kernel, const PassContext& context, const PairRangeIn<Real>& range, bool rolls, StageIn<Real>& stage, Accounts& accounts,
-                std::vector<ActingContact>& acting) {
+void passNoting(PairKernelIn<Real> kernel, const PassContext& context, const PairRangeIn<Real>& range, bool rolls, StageIn<Real>& stage,
+                Accounts& accounts, std::vector<ActingContact>& acting) {
   for (std::int64_t first = 0; first < range.count; first += chunkSize) {
     PairRangeIn<Real> chunk = range;
     chunk.i += first, chunk.j += first, chunk.memory += first;
@@ -27,7 +27,9 @@ void passNoting(PairKernelIn<Real> kernel, const PassContext& context, const Pai
 }
 
 template ActingContact contactIn(const StageIn<double>&, int, std::int32_t, std::int32_t, bool);
-template void passNoting(PairKernelIn<double>, const PassContext&, const PairRangeIn<double>&, bool, StageIn<double>&, Accounts&, std::vector<ActingContact>&);
-template void passNoting(PairKernelIn<float>, const PassContext&, const PairRangeIn<float>&, bool, StageIn<float>&, Accounts&, std::vector<ActingContact>&);
+template void passNoting(PairKernelIn<double>, const PassContext&, const PairRangeIn<double>&, bool, StageIn<double>&, Accounts&,
+                         std::vector<ActingContact>&);
+template void passNoting(PairKernelIn<float>, const PassContext&, const PairRangeIn<float>&, bool, StageIn<float>&, Accounts&,
+                         std::vector<ActingContact>&);
 
 }  // namespace tsubu::sim

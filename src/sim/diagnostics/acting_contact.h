@@ -30,7 +30,7 @@ ActingContact contactIn(const StageIn<Real>& stage, int q, std::int32_t first, s
 
 /// Runs the kernel over a range, in the chunks that it would take anyway and to the same bits, and adds the contacts that touch.
 template <class Real>
-void passNoting(PairKernelIn<Real> kernel, const PassContext& context, const PairRangeIn<Real>& range, bool rolls, StageIn<Real>& stage, Accounts& accounts,
-                std::vector<ActingContact>& acting);
+void passNoting(PairKernelIn<Real> kernel, const PassContext& context, const PairRangeIn<Real>& range, bool rolls, StageIn<Real>& stage,
+                Accounts& accounts, std::vector<ActingContact>& acting);
 
 }  // namespace tsubu::sim

@@ -11,7 +11,8 @@ namespace tsubu::sim {
 std::vector<std::int32_t> Simulation::Impl::ranks() const {
   std::vector<std::int32_t> order(state.size()), rank(state.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return state.id[static_cast<std::size_t>(a)] < state.id[static_cast<std::size_t>(b)]; });
+  std::sort(order.begin(), order.end(),
+            [&](std::int32_t a, std::int32_t b) { return state.id[static_cast<std::size_t>(a)] < state.id[static_cast<std::size_t>(b)]; });
   for (std::size_t k = 0; k < order.size(); ++k) rank[static_cast<std::size_t>(order[k])] = static_cast<std::int32_t>(k);
   return rank;
 }

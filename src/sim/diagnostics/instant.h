@@ -17,7 +17,7 @@ struct SeenGrain {
 };
 
 struct Instant {
-  double time = 0;                      ///< s
+  double time = 0;  ///< s
   Periods periods;
   std::vector<SeenGrain> grains;        ///< in the order of their ids; within the domain where it is periodic
   std::vector<ActingContact> contacts;  ///< places are those in `grains`

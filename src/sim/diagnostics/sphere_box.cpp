@@ -66,7 +66,8 @@ double volumeWithin(const Box& box, const Vec3& centre, double radius) {
   std::array<std::array<double, 2>, 3> plane{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto k = static_cast<std::size_t>(axis);
-    plane[k] = {std::clamp((box.min()[axis] - centre[axis]) / radius, -1.0, 1.0), std::clamp((box.max()[axis] - centre[axis]) / radius, -1.0, 1.0)};
+    plane[k] = {std::clamp((box.min()[axis] - centre[axis]) / radius, -1.0, 1.0),
+                std::clamp((box.max()[axis] - centre[axis]) / radius, -1.0, 1.0)};
     if (!(plane[k][0] < plane[k][1])) return 0;
   }
   double volume = 0;

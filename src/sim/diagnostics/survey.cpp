@@ -130,7 +130,8 @@ std::array<int, 2> cellsAlong(const Grid& grid, int axis, double low, double hig
 template <class Visit>
 void forCells(const Grid& grid, const Box& bounds, Visit&& visit) {
   std::array<std::array<int, 2>, 3> range;
-  for (int axis = 0; axis < 3; ++axis) range[static_cast<std::size_t>(axis)] = cellsAlong(grid, axis, bounds.min()[axis], bounds.max()[axis]);
+  for (int axis = 0; axis < 3; ++axis)
+    range[static_cast<std::size_t>(axis)] = cellsAlong(grid, axis, bounds.min()[axis], bounds.max()[axis]);
   for (int i = range[0][0]; i <= range[0][1]; ++i)
     for (int j = range[1][0]; j <= range[1][1]; ++j)
       for (int k = range[2][0]; k <= range[2][1]; ++k) visit(grid.index(i, j, k), grid.cell(i, j, k));
@@ -186,7 +187,8 @@ Survey survey(const Instant& instant, const Box& region) {
   for (const ActingContact& contact : instant.contacts) {
     const Vec3& from = instant.grains[static_cast<std::size_t>(contact.first)].position;
     double share = 0;
-    forImages(instant.periods, from, contact.branch.norm(), [&](const Vec3& shift) { share += shareWithin(region, from + shift, contact.branch); });
+    forImages(instant.periods, from, contact.branch.norm(),
+              [&](const Vec3& shift) { share += shareWithin(region, from + shift, contact.branch); });
     result.stress.contact += share * contact.force * contact.branch.transpose();
   }
   result.motion = motion.motion();
@@ -225,8 +227,9 @@ std::vector<CellSurvey> survey(const Instant& instant, const Grid& grid) {
 
   for (const SeenGrain& grain : instant.grains) {
     forImages(instant.periods, grain.position, grain.radius, [&](const Vec3& shift) {
-      forCells(grid, boundsOf(grain).translated(shift),
-               [&](std::size_t c, const Box& cell) { result[c].solidFraction += volumeWithin(cell, grain.position + shift, grain.radius) / volume; });
+      forCells(grid, boundsOf(grain).translated(shift), [&](std::size_t c, const Box& cell) {
+        result[c].solidFraction += volumeWithin(cell, grain.position + shift, grain.radius) / volume;
+      });
     });
     if (const std::size_t c = cellOf(grid, grain.position); c != nowhere) motion[c].addToMean(grain);
   }

@@ -16,22 +16,22 @@ struct ContactSurvey {
   static constexpr std::size_t most = 12;
 
   std::size_t betweenGrains = 0, withWalls = 0;
-  double coordination = 0;      ///< contacts per grain, walls included
-  double withoutRattlers = 0;   ///< the same of grains that have two at least
-  std::size_t rattlers = 0;     ///< grains with at most one contact
+  double coordination = 0;                        ///< contacts per grain, walls included
+  double withoutRattlers = 0;                     ///< the same of grains that have two at least
+  std::size_t rattlers = 0;                       ///< grains with at most one contact
   std::array<std::size_t, most + 1> histogram{};  ///< grains with k contacts; the last: with `most` or more
   double meanForce = 0, largestForce = 0;         ///< N: normal forces
-  double shareAboveMean = 0;    ///< of the contacts: those of the force chains
-  double loadAboveMean = 0;     ///< of the sum of normal forces: what these carry
+  double shareAboveMean = 0;                      ///< of the contacts: those of the force chains
+  double loadAboveMean = 0;                       ///< of the sum of normal forces: what these carry
 };
 
 /// D3. Grains whose centre is in the region.
 struct MotionSurvey {
   std::size_t grains = 0;
-  double mass = 0;                    ///< kg
-  Vec3 bulkVelocity = Vec3::Zero();   ///< m/s: of the centre of mass
-  double temperature = 0;             ///< m²/s²: Σ m|v − V|²/(3 Σ m)
-  double rotationTemperature = 0;     ///< m²/s²: Σ I|ω|²/(3 Σ m)
+  double mass = 0;                   ///< kg
+  Vec3 bulkVelocity = Vec3::Zero();  ///< m/s: of the centre of mass
+  double temperature = 0;            ///< m²/s²: Σ m|v − V|²/(3 Σ m)
+  double rotationTemperature = 0;    ///< m²/s²: Σ I|ω|²/(3 Σ m)
 };
 
 /// D4, Pa; compression is positive.
@@ -69,10 +69,13 @@ struct Grid {
   Box box;
   std::array<int, 3> cells{1, 1, 1};
 
-  std::size_t count() const { return static_cast<std::size_t>(cells[0]) * static_cast<std::size_t>(cells[1]) * static_cast<std::size_t>(cells[2]); }
+  std::size_t count() const {
+    return static_cast<std::size_t>(cells[0]) * static_cast<std::size_t>(cells[1]) * static_cast<std::size_t>(cells[2]);
+  }
   Vec3 size() const { return box.sizes().cwiseQuotient(Vec3(cells[0], cells[1], cells[2])); }
   std::size_t index(int i, int j, int k) const {
-    return (static_cast<std::size_t>(i) * static_cast<std::size_t>(cells[1]) + static_cast<std::size_t>(j)) * static_cast<std::size_t>(cells[2]) +
+    return (static_cast<std::size_t>(i) * static_cast<std::size_t>(cells[1]) + static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(cells[2]) +
            static_cast<std::size_t>(k);
   }
   Box cell(int i, int j, int k) const;

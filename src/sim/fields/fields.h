@@ -47,9 +47,9 @@ struct UniformFlow {
 
 /// u = rate ((x − point)·gradient) direction, both of unit length: layers slide over each other.
 struct ShearFlow {
-  Vec3 point = Vec3::Zero();                                ///< m: at rest
+  Vec3 point = Vec3::Zero();                                 ///< m: at rest
   Vec3 direction = Vec3::UnitX(), gradient = Vec3::UnitZ();  ///< any length but zero
-  double rate = 0;                                          ///< 1/s
+  double rate = 0;                                           ///< 1/s
   bool operator==(const ShearFlow&) const = default;
 };
 

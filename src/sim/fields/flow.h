@@ -24,10 +24,10 @@ class FlowField {
   FlowAt at(V3 x) const;
 
  private:
-  V3 point_{}, uniform_{}, turning_{};   // p, U, and half the curl where it is constant
-  V3 gradient_{}, direction_{};          // A = direction ⊗ gradient (shear)
-  V3 spin_{};                            // A = Ω × (vortex)
-  V3 axis_{};                            // a
+  V3 point_{}, uniform_{}, turning_{};     // p, U, and half the curl where it is constant
+  V3 gradient_{}, direction_{};            // A = direction ⊗ gradient (shear)
+  V3 spin_{};                              // A = Ω × (vortex)
+  V3 axis_{};                              // a
   double inverseRadius2_ = 0, speed_ = 0;  // of a pipe; 0: none
 };
 

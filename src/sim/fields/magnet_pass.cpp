@@ -84,8 +84,9 @@ void MagnetPass::regroup(const World& world, const std::vector<std::int32_t>&) {
   const double reach = magnets_.cutOff + world.skin;
   for (int axis = 0; axis < 3; ++axis) {
     if (world.periods.along(axis) && world.periods.length(axis) < 2 * reach)
-      throw Error(ErrorKind::scene, fmt::format("Magnets that reach {:.4g} m would meet twice in a domain that repeats after {:.4g} m.",
-                                                magnets_.cutOff, world.periods.length(axis)),
+      throw Error(ErrorKind::scene,
+                  fmt::format("Magnets that reach {:.4g} m would meet twice in a domain that repeats after {:.4g} m.", magnets_.cutOff,
+                              world.periods.length(axis)),
                   "a shorter cut_off or a larger domain");
   }
   CellGrid grid;

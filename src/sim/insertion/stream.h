@@ -39,7 +39,7 @@ struct Stream {
   Vec3 velocity = Vec3::Zero();         ///< m/s
   double velocitySpread = 0;            ///< m/s: largest deviation of each component, uniform
   Vec3 angularVelocity = Vec3::Zero();  ///< rad/s
-  double temperature = 0;  ///< K; read where heat is modelled
+  double temperature = 0;               ///< K; read where heat is modelled
   std::uint16_t material = 0;
   double start = 0;                                                 ///< s
   double end = std::numeric_limits<double>::infinity();             ///< s: no more is promised after it

@@ -91,7 +91,9 @@ TSUBU_INLINE V3 spinSumAt(const BondStage::Motion& motion, int q) { return at(mo
 TSUBU_INLINE V3 spinAt(const BondStage::Motion& motion, int q) {
   return motion.perRadiusI[q] * at(motion.surfaceI, q) - motion.perRadiusJ[q] * at(motion.surfaceJ, q);
 }
-TSUBU_INLINE BondMotion at(const BondStage::Motion& motion, int q) { return {at(motion.velocity, q), spinSumAt(motion, q), spinAt(motion, q)}; }
+TSUBU_INLINE BondMotion at(const BondStage::Motion& motion, int q) {
+  return {at(motion.velocity, q), spinSumAt(motion, q), spinAt(motion, q)};
+}
 TSUBU_INLINE BondLength lengthAt(const BondStage& s, int q) { return {s.r[q], s.perR[q], s.perRadiusSum[q], s.perMiddle2[q]}; }
 TSUBU_INLINE BondPath pathAt(const BondStage& s, int q) { return {at(s.n, q), at(s.rotation, q), at(s.sheared, q)}; }
 TSUBU_INLINE BondRotation rotationAt(const BondStage& s, int q) { return {at(s.rotation, q), s.scale[q]}; }
@@ -160,8 +162,12 @@ void pullBonds(const BondKind& given, const BondChunk& bonds, int count, double 
     const BondMemory memory = bonds.memory(q);
     // What does not relax still has its first length as the length at rest: a column less to read.
     const double length = damping == BondDamping::exponential ? c[Name::length][q] : memory.rest;
-    const BondBody body{breakable ? c[Name::radius][q] : 0, c[Name::springAlong][q], c[Name::springBend][q], length,
-                        dampsMotion<damping> ? c[Name::critical][q] : 0, dampsMotion<damping> ? c[Name::bendCritical][q] : 0};
+    const BondBody body{breakable ? c[Name::radius][q] : 0,
+                        c[Name::springAlong][q],
+                        c[Name::springBend][q],
+                        length,
+                        dampsMotion<damping> ? c[Name::critical][q] : 0,
+                        dampsMotion<damping> ? c[Name::bendCritical][q] : 0};
     const BondForce f = pullBond<damping, breakable>(kind, body, memory, at(s.n, q), s.r[q], s.perRadiusSum[q],
                                                      dampsMotion<damping> ? at(instant, q) : BondMotion{}, dt);
     const bool holds = !breakable || f.holds;
@@ -231,7 +237,8 @@ double heldBy(const BondKind& kind, const BondBody& body, const BondMemory& memo
 
 /// Names the bonds of a chunk that break.
 template <BondDamping damping>
-void noteBroken(const BondKind& kind, const BondColumns& bonds, std::size_t from, int count, double dt, const BondStage& s, BondFindings& found) {
+void noteBroken(const BondKind& kind, const BondColumns& bonds, std::size_t from, int count, double dt, const BondStage& s,
+                BondFindings& found) {
   double broken[8] = {};
   addToLanes(s.broken, count, broken);
   if (BondFindings::sum(broken) == 0) return;
@@ -282,10 +289,14 @@ BondKernel bondPassOf(BondPassKind kind) {
 }
 BondKernel bondPassFor(BondPassKind kind) {
   switch (kind.damping) {
-    case BondDamping::percent: return bondPassOf<BondDamping::percent>(kind);
-    case BondDamping::exponential: return bondPassOf<BondDamping::exponential>(kind);
-    case BondDamping::viscous: return bondPassOf<BondDamping::viscous>(kind);
-    case BondDamping::none: break;
+    case BondDamping::percent:
+      return bondPassOf<BondDamping::percent>(kind);
+    case BondDamping::exponential:
+      return bondPassOf<BondDamping::exponential>(kind);
+    case BondDamping::viscous:
+      return bondPassOf<BondDamping::viscous>(kind);
+    case BondDamping::none:
+      break;
   }
   return bondPassOf<BondDamping::none>(kind);
 }

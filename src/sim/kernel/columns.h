@@ -1,6 +1,6 @@
 #pragma once
-// How rows of grains become columns of the stage, and columns rows again: what contacts read of grains and walls, constants, memory, and what
-// they do. Of each there is one for pairs in double, one for pairs in single precision and one for walls. Included where passes.h is.
+// How rows of grains become columns of the stage, and columns rows again: what contacts read of grains and walls, constants, memory, and
+// what they do. Of each there is one for pairs in double, one for pairs in single precision and one for walls. Included where passes.h is.
 
 #include "sim/kernel/kernels.h"
 #include "sim/kernel/lanes.h"
@@ -171,7 +171,8 @@ typename Law::template PairIn<Real> onlyPair(const double* constants) {
 template <class Law, class Real>
 TSUBU_INLINE typename Law::template MemoryIn<Real> memoryFromColumns(Real* const (&columns)[mostMemory], int q) {
   using M = typename Law::template MemoryIn<Real>;
-  return {fromColumns<decltype(M::tangential), Real>(columns, 0, q), fromColumns<decltype(M::rolling), Real>(columns, Law::tangentialSize, q),
+  return {fromColumns<decltype(M::tangential), Real>(columns, 0, q),
+          fromColumns<decltype(M::rolling), Real>(columns, Law::tangentialSize, q),
           fromColumns<decltype(M::twisting), Real>(columns, Law::tangentialSize + Law::rollingSize, q)};
 }
 template <class Law, class Real>
@@ -186,7 +187,7 @@ TSUBU_INLINE void memoryToColumns(typename Law::template MemoryIn<Real>& memory,
 /// Forces, couples and moments of four contacts as rows.
 template <class Shape>
 TSUBU_INLINE void forceRows(const Stage& s, int q, D4 (&f)[4], D4 (&c)[4], D4 (&m)[4]) {
-  const auto turn = [q](const double* x, const double* y, const double* z, D4 (&rows)[4]) __attribute__((always_inline)) {
+  const auto turn = [q](const double* x, const double* y, const double* z, D4(&rows)[4]) __attribute__((always_inline)) {
     rows[0] = load4(x + q), rows[1] = load4(y + q), rows[2] = load4(z + q), rows[3] = D4{};
     transpose4(rows[0], rows[1], rows[2], rows[3]);
   };
@@ -197,7 +198,8 @@ TSUBU_INLINE void forceRows(const Stage& s, int q, D4 (&f)[4], D4 (&c)[4], D4 (&
 
 /// Adds the columns of up to four contacts to the rows of both grains. T = −r Q + M, so a moment is −M/r in Q, which differs for the two.
 template <class Shape>
-TSUBU_INLINE void scatterSome(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, int q, const Stage& s) {
+TSUBU_INLINE void scatterSome(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, int q,
+                              const Stage& s) {
   D4 f[4], c[4], m[4];
   forceRows<Shape>(s, q, f, c, m);
   ForceRow* const forces = context.forces;  // a copy that no store can change
@@ -218,7 +220,8 @@ TSUBU_INLINE void scatterSome(const PassContext& context, const std::int32_t* is
 
 /// The same for up to eight contacts in single precision.
 template <class Shape>
-TSUBU_INLINE void scatterSome(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, int q, const StageIn<float>& s) {
+TSUBU_INLINE void scatterSome(const PassContext& context, const std::int32_t* is, const std::int32_t* js, int count, int q,
+                              const StageIn<float>& s) {
   const F8 opposite{-1, -1, -1, 1, 1, 1, 1, 1};
   F8 f[8] = {load8(s.fx + q), load8(s.fy + q), load8(s.fz + q)}, m[8];
   if constexpr (Shape::turns) f[4] = load8(s.qx + q), f[5] = load8(s.qy + q), f[6] = load8(s.qz + q);
@@ -253,7 +256,8 @@ void scatter(const PassContext& context, const std::int32_t* is, const std::int3
 
 /// Columns from the rows of four grains and what the wall does where they touch.
 template <class Shape>
-TSUBU_INLINE void gatherFourOfWalls(const PassContext& context, const std::int32_t* grains, const WallContactRow* contacts, int q, Stage& s) {
+TSUBU_INLINE void gatherFourOfWalls(const PassContext& context, const std::int32_t* grains, const WallContactRow* contacts, int q,
+                                    Stage& s) {
   const D4 signs{-1, -1, -1, 1};
   D4 d[4], v[4], w[4], spin[4];
   double masses[4], radii[4];

@@ -19,8 +19,8 @@ struct MoveContext {
   PlaceRow* previous;
   AngleRow* turned;
   const float* perSkin2;  ///< 1/m²
-  V3 gravity;  ///< m/s²
-  double dt;   ///< s
+  V3 gravity;             ///< m/s²
+  double dt;              ///< s
 };
 
 /// What a pass over grains finds.
@@ -41,7 +41,8 @@ struct Motion {
   }
 };
 
-/// Which variant of the loop: do grains turn; is it kept how far; have they single rows to be kept up to date; do the single force rows act, and not the others?
+/// Which variant of the loop: do grains turn; is it kept how far; have they single rows to be kept up to date; do the single force rows
+/// act, and not the others?
 struct MoveKind {
   bool turns, keepsOrientation, mixed, bySingle;
 };
@@ -71,8 +72,8 @@ struct BallRun {
 
 /// Writes the numbers of those balls of the runs that are nearer to a ball at (x, y, z) than the sum of the radii and have a number above
 /// `after`: in their order, to `found`, which has room for all of them and seven more. Returns how many.
-using NearBallsKernel = std::int64_t (*)(const BallColumns& balls, const BallRun* runs, int count, const double (&ball)[4], std::int32_t after,
-                                         std::int32_t* found);
+using NearBallsKernel = std::int64_t (*)(const BallColumns& balls, const BallRun* runs, int count, const double (&ball)[4],
+                                         std::int32_t after, std::int32_t* found);
 
 /// The loops for one instruction set.
 struct GrainKernels {

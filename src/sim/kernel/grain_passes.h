@@ -42,10 +42,13 @@ struct MoveLanes {
   D4 step, squared, perStep;
 
   explicit MoveLanes(const MoveContext& context)
-      : dt(lanesOf<turns>({context.dt, context.dt, context.dt}, context.dt)), half(dt * 0.5),
+      : dt(lanesOf<turns>({context.dt, context.dt, context.dt}, context.dt)),
+        half(dt * 0.5),
         gravity(lanesOf<turns>(context.gravity, -0.0)),  // of zeros the one that changes no sign
         perMass(lanesOf<turns>({1, 1, 1}, -2.5)),        // T = −r Q, and r/I = 2.5/(m r)
-        step(linearOf(dt)), squared(step * step), perStep{1 / context.dt, 1 / context.dt, 1 / context.dt, 0} {}
+        step(linearOf(dt)),
+        squared(step * step),
+        perStep{1 / context.dt, 1 / context.dt, 1 / context.dt, 0} {}
 };
 
 /// What acts on a grain, F and, where grains turn, Q; taken away from where it is.
@@ -164,7 +167,8 @@ Motion moveGrains(const MoveContext& given, std::int32_t first, std::int32_t las
 template <Integrator scheme, bool turns, bool keepsOrientation>
 MoveKernel moveBy(MoveKind kind) {
   if (!kind.mixed) return &moveGrains<scheme, turns, keepsOrientation, false, false>;
-  return kind.bySingle ? &moveGrains<scheme, turns, keepsOrientation, true, true> : &moveGrains<scheme, turns, keepsOrientation, true, false>;
+  return kind.bySingle ? &moveGrains<scheme, turns, keepsOrientation, true, true>
+                       : &moveGrains<scheme, turns, keepsOrientation, true, false>;
 }
 template <Integrator scheme>
 MoveKernel moveBy(MoveKind kind) {
@@ -174,12 +178,17 @@ MoveKernel moveBy(MoveKind kind) {
 
 MoveKernel moveFor(Integrator scheme, MoveKind kind) {
   switch (scheme) {
-    case Integrator::velocityVerlet: return moveBy<Integrator::velocityVerlet>(kind);
-    case Integrator::explicitEuler: return moveBy<Integrator::explicitEuler>(kind);
-    case Integrator::leapfrog: return moveBy<Integrator::leapfrog>(kind);
-    case Integrator::centralDifferences: return moveBy<Integrator::centralDifferences>(kind);
+    case Integrator::velocityVerlet:
+      return moveBy<Integrator::velocityVerlet>(kind);
+    case Integrator::explicitEuler:
+      return moveBy<Integrator::explicitEuler>(kind);
+    case Integrator::leapfrog:
+      return moveBy<Integrator::leapfrog>(kind);
+    case Integrator::centralDifferences:
+      return moveBy<Integrator::centralDifferences>(kind);
     case Integrator::rungeKutta:  // not by single passes: runge_kutta.h
-    case Integrator::symplecticEuler: break;
+    case Integrator::symplecticEuler:
+      break;
   }
   return moveBy<Integrator::symplecticEuler>(kind);
 }
@@ -246,7 +255,8 @@ void turnGrains(double* orientations, const AngleRow* angles, std::int64_t count
   }
 }
 
-std::int64_t nearBalls(const BallColumns& balls, const BallRun* runs, int count, const double (&ball)[4], std::int32_t after, std::int32_t* found) {
+std::int64_t nearBalls(const BallColumns& balls, const BallRun* runs, int count, const double (&ball)[4], std::int32_t after,
+                       std::int32_t* found) {
   const auto all = [](double value) __attribute__((always_inline)) { return joined(fill4(value), fill4(value)); };
   const D8 x = all(ball[0]), y = all(ball[1]), z = all(ball[2]), radius = all(ball[3]);
   std::int64_t kept = 0;

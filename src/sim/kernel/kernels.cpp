@@ -60,7 +60,9 @@ Chosen<Kernel> choose(Kernel (*Kernels::*pass)(std::size_t, PassKind), std::size
 }  // namespace
 
 template <>
-Chosen<PairKernel> pairKernel<double>(std::size_t law, PassKind kind) { return choose(&Kernels::pairPass, law, kind); }
+Chosen<PairKernel> pairKernel<double>(std::size_t law, PassKind kind) {
+  return choose(&Kernels::pairPass, law, kind);
+}
 template <>
 Chosen<PairKernelIn<float>> pairKernel<float>(std::size_t law, PassKind kind) {
   return {kernels().singlePairPass(law, kind), kind.oneClass};

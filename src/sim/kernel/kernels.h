@@ -40,7 +40,7 @@ struct alignas(32) WallContactRow {
 struct WallRange {
   const std::int32_t* grain;
   const WallContactRow* rows;
-  int count;               ///< no more than a chunk
+  int count;  ///< no more than a chunk
   double* memory;
   const std::int32_t* at;  ///< memory of contact k: from memory[at[k] * stateSize] on
 };
@@ -53,10 +53,10 @@ struct PassContext {
   SingleForceRow* singleForces;   ///< and where the forces of all contacts go
   const std::uint16_t* material;  ///< per grain
   std::size_t materials;
-  const double* pairs;            ///< constants of materials × materials, or of the one class
+  const double* pairs;  ///< constants of materials × materials, or of the one class
   StepOf step;
-  bool observed = false;          ///< tell how deep contacts are and, with accounts, what springs store
-  bool prefetch = false;          ///< the grains are more than the cache holds: ask for partners ahead of time
+  bool observed = false;  ///< tell how deep contacts are and, with accounts, what springs store
+  bool prefetch = false;  ///< the grains are more than the cache holds: ask for partners ahead of time
 };
 
 /// Which variant of the loops: one class of pairs or several; with accounts of what is dissipated or without.
@@ -78,8 +78,8 @@ struct Kernels {
   PairKernel (*pairPass)(std::size_t law, PassKind kind);
   PairKernelIn<float> (*singlePairPass)(std::size_t law, PassKind kind);
   WallKernel (*wallPass)(std::size_t law, PassKind kind);
-  BondKernel (*bonds)(BondPassKind);                      ///< all of them
-  const GrainKernels* grains;                             ///< those that know no law
+  BondKernel (*bonds)(BondPassKind);  ///< all of them
+  const GrainKernels* grains;         ///< those that know no law
 };
 
 /// A loop and how it wants its constants.

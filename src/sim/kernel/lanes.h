@@ -17,7 +17,8 @@
 
 namespace tsubu::sim {
 
-/// Two vectors side by side, where a processor has none that is wide enough: the compiler takes one that is too wide apart by way of memory.
+/// Two vectors side by side, where a processor has none that is wide enough: the compiler takes one that is too wide apart by way of
+/// memory.
 template <class Half>
 struct Two {
   using Number = std::remove_cvref_t<decltype(std::declval<const Half&>()[0])>;
@@ -44,9 +45,15 @@ struct Two {
 
   TSUBU_INLINE friend auto operator<(const Two& a, const Two& b) { return Two<decltype(a.low < b.low)>(a.low < b.low, a.high < b.high); }
   TSUBU_INLINE friend auto operator>(const Two& a, const Two& b) { return Two<decltype(a.low > b.low)>(a.low > b.low, a.high > b.high); }
-  TSUBU_INLINE friend auto operator<=(const Two& a, const Two& b) { return Two<decltype(a.low <= b.low)>(a.low <= b.low, a.high <= b.high); }
-  TSUBU_INLINE friend auto operator>=(const Two& a, const Two& b) { return Two<decltype(a.low >= b.low)>(a.low >= b.low, a.high >= b.high); }
-  TSUBU_INLINE friend auto operator!=(const Two& a, const Two& b) { return Two<decltype(a.low != b.low)>(a.low != b.low, a.high != b.high); }
+  TSUBU_INLINE friend auto operator<=(const Two& a, const Two& b) {
+    return Two<decltype(a.low <= b.low)>(a.low <= b.low, a.high <= b.high);
+  }
+  TSUBU_INLINE friend auto operator>=(const Two& a, const Two& b) {
+    return Two<decltype(a.low >= b.low)>(a.low >= b.low, a.high >= b.high);
+  }
+  TSUBU_INLINE friend auto operator!=(const Two& a, const Two& b) {
+    return Two<decltype(a.low != b.low)>(a.low != b.low, a.high != b.high);
+  }
 };
 
 /// a where the mask says so, b elsewhere.
@@ -149,7 +156,9 @@ TSUBU_INLINE F8 toSingle(const D8& value) { return joined(as<float>(value.low), 
 #endif
 
 /// Of each four.
-TSUBU_INLINE D8 withFourth(const D8& a, const D8& b) { return joined(withFourth(lowHalf(a), lowHalf(b)), withFourth(highHalf(a), highHalf(b))); }
+TSUBU_INLINE D8 withFourth(const D8& a, const D8& b) {
+  return joined(withFourth(lowHalf(a), lowHalf(b)), withFourth(highHalf(a), highHalf(b)));
+}
 
 /// a + s b, where s is a row of signs. A product by ±1 is exact: fused or not, the sum is the same.
 template <class Vector>

@@ -241,9 +241,7 @@ void compute(const PassContext& context, int count, StageIn<Real>& s, Real* cons
 /// Which kinds of accounts a law fills in.
 template <class Shape>
 constexpr bool books(Accounts::Kind kind) {
-  return kind == Accounts::rolling                                        ? Shape::rolls
-         : kind == Accounts::tangential || kind == Accounts::friction ? Shape::turns
-                                                                         : true;
+  return kind == Accounts::rolling ? Shape::rolls : kind == Accounts::tangential || kind == Accounts::friction ? Shape::turns : true;
 }
 
 template <class Shape, class Real>
@@ -339,8 +337,8 @@ Kernel loopFor(std::size_t law, PassKind kind, Loop) {
   return kind.accounts ? moreWith[law] : moreWithout[law];
 }
 
-/// Common laws have a loop for each choice, to carry nothing that a scene does not ask for. The others have the one that serves every scene:
-/// that for several classes, with accounts.
+/// Common laws have a loop for each choice, to carry nothing that a scene does not ask for. The others have the one that serves every
+/// scene: that for several classes, with accounts.
 template <class Law, bool oneClass, bool accounts>
 inline constexpr bool hasLoop = objection<Law>.empty() && (Law::common || (!oneClass && accounts));
 

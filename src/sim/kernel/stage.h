@@ -21,24 +21,24 @@ struct alignas(64) StageIn {
   // In, for every law: differences i − j and sums i + j of the two rows. With friction (dx, dy, dz) becomes the direction n.
   Column dx, dy, dz, radiusSum;
   Column dvx, dvy, dvz, inverseMassSum;
-  Column gap;               // single precision: (r_i + r_j)² − |x_ij|², subtracted in double: the overlap is a small difference
+  Column gap;  // single precision: (r_i + r_j)² − |x_ij|², subtracted in double: the overlap is a small difference
   // In, for laws with friction.
   Column sx, sy, sz;        // r_i ω_i + r_j ω_j
   Column ox, oy, oz;        // walls: the mean spin ½(ω_i + Ω)
   Column inverseRadiusSum;  // 1/r_i + 1/r_j, for laws that read R*
   // In, for rolling laws.
-  Column rx, ry, rz;        // ω_i − ω_j
+  Column rx, ry, rz;         // ω_i − ω_j
   Column inverseInertiaSum;  // 1/(m_i r_i²) + 1/(m_j r_j²)
   // In, when watched: the smaller radius. In, for walls: the share of a face in a contact that several faces carry.
   Column smallerRadius, weight;
-  Column armScale;          // of pairs that touch sooner or later than their radii say; only when there are such
+  Column armScale;  // of pairs that touch sooner or later than their radii say; only when there are such
   // In, when there is more than one class of pairs: row × column of the materials, and the constants of that pair.
   std::int32_t pairClass[chunkSize];
   Column constants[mostConstants];
 
   // On the way.
   Column overlap, effectiveMass, rootMass, effectiveRadius;
-  Column perDistance;       // without friction: what makes n of (dx, dy, dz)
+  Column perDistance;  // without friction: what makes n of (dx, dy, dz)
   Column separationSpeed, frameSpin;
   Column perRadiusSum, arm;  // 1/(r_i + r_j); distance over that sum, the share of its radius at which each grain is touched
 

@@ -34,7 +34,7 @@ std::size_t indexIn(const LawFamily& family, const std::string& name) {
 template <class T>
 T fromDoubles(const double* from) {
   T value{};
-  if constexpr (numbersIn<T> > 0) std::memcpy(&value, from, sizeof(T));
+  if constexpr (numbersIn < T >> 0) std::memcpy(&value, from, sizeof(T));
   return value;
 }
 
@@ -67,8 +67,8 @@ struct AsFunctions {
     const double stiffness = Law::Normal::stiffness(pair.normal, overlap, effectiveRadius);
     const double damping = Law::Normal::damping(pair.normal, 1 / inverseMass, stiffness);
     return {ContactMode{stiffness * inverseMass, damping * inverseMass},
-            Law::Tangential::mode(pair.tangential, stiffness, damping, inverseMass), Law::Rolling::mode(pair.rolling, stiffness, inverseMass),
-            Law::Twisting::mode(pair.twisting, stiffness, inverseMass)};
+            Law::Tangential::mode(pair.tangential, stiffness, damping, inverseMass),
+            Law::Rolling::mode(pair.rolling, stiffness, inverseMass), Law::Twisting::mode(pair.twisting, stiffness, inverseMass)};
   }
 };
 
@@ -79,8 +79,8 @@ LawFunctions functionsOf() {
   f.objection = objection<Law>;
   if constexpr (objection<Law>.empty()) {
     using F = AsFunctions<Law>;
-    f.traits = {Law::stateSize, Law::tangentialSize, Law::rollingSize, Law::odd,
-                Law::turns, Law::rolls, Law::readsRadius, Law::Tangential::passive, Law::Tangential::withinLimit};
+    f.traits = {Law::stateSize,           Law::tangentialSize,         Law::rollingSize, Law::odd, Law::turns, Law::rolls, Law::readsRadius,
+                Law::Tangential::passive, Law::Tangential::withinLimit};
     f.constants = static_cast<std::size_t>(numbersIn<typename Law::Pair>);
     f.prepare = &F::prepare, f.evaluate = &F::evaluate, f.stored = &F::stored, f.modes = &F::modes;
   }
@@ -98,7 +98,10 @@ const std::vector<LawFamily>& lawFamilies() {
 }
 
 const std::string& chosenIn(const ContactChoice& choice, std::string_view family) {
-  return family == "normal" ? choice.normal : family == "tangential" ? choice.tangential : family == "rolling" ? choice.rolling : choice.twisting;
+  return family == "normal"       ? choice.normal
+         : family == "tangential" ? choice.tangential
+         : family == "rolling"    ? choice.rolling
+                                  : choice.twisting;
 }
 
 std::vector<Reading> readings(const ContactChoice& choice) {
@@ -119,8 +122,9 @@ std::size_t lawIndex(const ContactChoice& choice) {
   for (const LawFamily& family : lawFamilies()) index = index * family.laws.size() + indexIn(family, chosenIn(choice, family.key));
   const LawFunctions& law = lawFunctions(index);
   if (!law.objection.empty()) {
-    throw Error(ErrorKind::scene, fmt::format("The laws {}, {}, {} and {} (normal, tangential, rolling, twisting) make no sense together: {}.",
-                                              law.names[0], law.names[1], law.names[2], law.names[3], law.objection));
+    throw Error(ErrorKind::scene,
+                fmt::format("The laws {}, {}, {} and {} (normal, tangential, rolling, twisting) make no sense together: {}.", law.names[0],
+                            law.names[1], law.names[2], law.names[3], law.objection));
   }
   return index;
 }

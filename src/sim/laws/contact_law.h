@@ -58,10 +58,11 @@ struct ContactLaw {
   static constexpr unsigned odd = decltype(Memory::tangential)::odd | decltype(Memory::rolling)::odd << tangentialSize |
                                   decltype(Memory::twisting)::odd << (tangentialSize + rollingSize);
 
-  static constexpr bool turns = T::acts || R::acts || W::acts;                      ///< grains rotate
-  static constexpr bool rolls = R::acts || W::acts;                                 ///< the contact needs the relative spin
-  static constexpr bool readsRadius = rolls || N::growing;                          ///< the contact needs R*
-  static constexpr bool common = N::common && T::common && R::common && W::common;  ///< worth a loop for each choice of accounts, classes, precision
+  static constexpr bool turns = T::acts || R::acts || W::acts;  ///< grains rotate
+  static constexpr bool rolls = R::acts || W::acts;             ///< the contact needs the relative spin
+  static constexpr bool readsRadius = rolls || N::growing;      ///< the contact needs R*
+  static constexpr bool common =
+      N::common && T::common && R::common && W::common;  ///< worth a loop for each choice of accounts, classes, precision
 
   static Pair prepare(const PairValues& values, bool tension, bool rescales) {
     const typename N::Pair normal = N::prepare(values, tension);

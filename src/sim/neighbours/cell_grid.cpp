@@ -103,7 +103,8 @@ void CellGrid::visitRuns(const Level& level, const Vec3& x, double radius, Visit
   for (auto w = low[2]; w <= high[2]; ++w) {
     for (auto v = low[1]; v <= high[1]; ++v) {
       const std::int64_t line = (w * level.cells[1] + v) * level.cells[0];
-      const std::int32_t first = level.start[static_cast<std::size_t>(line + low[0])], last = level.start[static_cast<std::size_t>(line + high[0] + 1)];
+      const std::int32_t first = level.start[static_cast<std::size_t>(line + low[0])],
+                         last = level.start[static_cast<std::size_t>(line + high[0] + 1)];
       if (last > first) visit(first, last);
     }
   }

@@ -1,6 +1,6 @@
 #pragma once
-// Do the lists still hold? A pair list holds as long as no grain that it reads has gone farther than its share of its skin. Kept by slab: where
-// little moves, nothing needs to be made anew while grains fall elsewhere.
+// Do the lists still hold? A pair list holds as long as no grain that it reads has gone farther than its share of its skin. Kept by slab:
+// where little moves, nothing needs to be made anew while grains fall elsewhere.
 
 #include <algorithm>
 #include <cstddef>
@@ -52,7 +52,7 @@ class Drift {
 
  private:
   std::vector<std::vector<int>> reads_;
-  std::vector<std::vector<double>> atFilter_;      // way of each slab that a list reads, when it was filtered
+  std::vector<std::vector<double>> atFilter_;     // way of each slab that a list reads, when it was filtered
   std::vector<double> way_, last_, sinceSearch_;  // by slab
 };
 

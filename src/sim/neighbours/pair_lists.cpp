@@ -58,8 +58,8 @@ bool PairLists::recall(std::int32_t seenFrom, std::int32_t partner, Real* memory
   return false;
 }
 
-// What is remembered goes to the same pairs in the new lists. Forces in the memory belong to i as seen from j: they change their sign when the
-// pair is now seen from the other side.
+// What is remembered goes to the same pairs in the new lists. Forces in the memory belong to i as seen from j: they change their sign when
+// the pair is now seen from the other side.
 template <class Real>
 void PairLists::handMemory(SlabPairs& pairs) const {
   const std::vector<std::int32_t>& oldPlace = remembered_.oldPlace;
@@ -67,7 +67,8 @@ void PairLists::handMemory(SlabPairs& pairs) const {
   const std::size_t stride = pairs.memory.stride();
   Real seen[mostMemory];
   for (std::size_t pair = 0; pair < pairs.i.size(); ++pair) {
-    const std::int32_t i = oldPlace[static_cast<std::size_t>(pairs.i[pair])], j = oldPlace[static_cast<std::size_t>(pairs.grainOf(pairs.j[pair]))];
+    const std::int32_t i = oldPlace[static_cast<std::size_t>(pairs.i[pair])],
+                       j = oldPlace[static_cast<std::size_t>(pairs.grainOf(pairs.j[pair]))];
     if (i < 0 || j < 0) continue;
     const bool same = recall(i, j, seen);
     if (!same && !recall(j, i, seen)) continue;
@@ -83,7 +84,8 @@ void PairLists::searchSlab(const State& state, const Slabs& slabs, const CellGri
   room.outerJ.clear();
   for (std::int32_t g = slabs.begin(slab); g < slabs.end(slab); ++g) {
     const GrainRow& row = state.rows[static_cast<std::size_t>(g)];
-    const std::size_t count = grid.partners(Vec3(row.x, row.y, row.z), row.radius + state.skin[static_cast<std::size_t>(g)], g, room.partners);
+    const std::size_t count =
+        grid.partners(Vec3(row.x, row.y, row.z), row.radius + state.skin[static_cast<std::size_t>(g)], g, room.partners);
     const auto begin = room.partners.begin(), end = begin + static_cast<std::ptrdiff_t>(count);
     std::sort(begin, end);
     room.outerI.insert(room.outerI.end(), count, g);
@@ -124,7 +126,8 @@ void PairLists::searchAcross(const State& state, const Slabs& slabs, const CellG
       images.push_back({found[k].partner, periods.shift(found[k].shift)});
     across.push_back({found[k].grain, static_cast<std::int32_t>(images.size()) - 1});
   }
-  std::sort(across.begin(), across.end(), [](const Across& a, const Across& b) { return a.grain != b.grain ? a.grain < b.grain : a.image < b.image; });
+  std::sort(across.begin(), across.end(),
+            [](const Across& a, const Across& b) { return a.grain != b.grain ? a.grain < b.grain : a.image < b.image; });
 }
 
 // Merges them into the outer list from its end: rows of images come after those of grains.
@@ -292,7 +295,8 @@ void PairLists::filterSlab(State& state, SlabPairs& pairs, double share, Room& r
   if (room.near.size() < outer + 3) room.near.resize(outer + 3);
   const GrainKernels& loops = *kernels().grains;
   const auto nearAmong = [&](auto* loop, const auto& rows) {
-    return loop(rows.data(), state.skin.data(), share, pairs.outerI.data(), pairs.outerJ.data(), static_cast<std::int64_t>(outer), room.near.data());
+    return loop(rows.data(), state.skin.data(), share, pairs.outerI.data(), pairs.outerJ.data(), static_cast<std::int64_t>(outer),
+                room.near.data());
   };
   const std::int64_t found = state.single.empty() ? nearAmong(loops.nearPairs, state.rows) : nearAmong(loops.nearSinglePairs, state.single);
   const auto begin = room.near.begin();

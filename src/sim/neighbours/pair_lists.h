@@ -1,7 +1,7 @@
 #pragma once
 // Who may touch whom. Two lists: the outer one (all pairs nearer than the sum of their skins) is searched for rarely; the inner one (nearer
-// than a share of it) is what every step walks, refiltered from the outer one whenever one of its grains may have gone farther than that share
-// of its skin (drift.h). The memory of contacts lies along the inner list.
+// than a share of it) is what every step walks, refiltered from the outer one whenever one of its grains may have gone farther than that
+// share of its skin (drift.h). The memory of contacts lies along the inner list.
 //
 // Across a periodic boundary (docs/physics.md, W5) a grain meets the image of its partner: a row beyond those of the grains, copied from
 // its owner with a shift before every pass. The slab of the grain has its own images, so that no two slabs write to the same row;
@@ -30,11 +30,11 @@ struct Image {
 /// The pairs whose first grain lies in one slab, ordered by first and second row (i < j). The second may be an image.
 struct SlabPairs {
   std::vector<std::int32_t> outerI, outerJ;
-  std::vector<std::int32_t> i, j;              ///< inner list
-  std::vector<std::int32_t> outerIndex;        ///< where each of its pairs is in the outer list; empty when nothing is remembered
-  PairMemory memory;                           ///< of the inner pairs
-  std::vector<double> outerTouch, touch;       ///< m: see PairRangeIn::touch, along each list; empty: none
-  bool stale = false;                          ///< pairs have begun or ceased to touch: the inner list must be made anew
+  std::vector<std::int32_t> i, j;         ///< inner list
+  std::vector<std::int32_t> outerIndex;   ///< where each of its pairs is in the outer list; empty when nothing is remembered
+  PairMemory memory;                      ///< of the inner pairs
+  std::vector<double> outerTouch, touch;  ///< m: see PairRangeIn::touch, along each list; empty: none
+  bool stale = false;                     ///< pairs have begun or ceased to touch: the inner list must be made anew
 
   /// m: the distance of the centres at which pair k begins to touch, given the sum of its radii.
   double touchOf(std::size_t k, double radiusSum) const { return touch.empty() || touch[k] == 0 ? radiusSum : touch[k]; }
@@ -84,13 +84,13 @@ class PairLists {
   struct Remembered {
     struct Contacts {
       std::vector<std::int32_t> partner;
-      std::vector<std::int32_t> first;     ///< where the pairs of each of its grains begin, and the end
+      std::vector<std::int32_t> first;  ///< where the pairs of each of its grains begin, and the end
       PairMemory memory;
     };
     std::vector<Contacts> slabs;
-    std::vector<std::int32_t> begin;       ///< first grain of each slab
-    std::vector<std::uint16_t> slab;       ///< of each grain
-    std::vector<std::int32_t> oldPlace;    ///< by new place; −1: was not there
+    std::vector<std::int32_t> begin;     ///< first grain of each slab
+    std::vector<std::uint16_t> slab;     ///< of each grain
+    std::vector<std::int32_t> oldPlace;  ///< by new place; −1: was not there
 
     void clear() { *this = Remembered{}; }
   };
@@ -105,8 +105,8 @@ class PairLists {
     std::int32_t grain, image;
   };
   static void searchSlab(const State& state, const Slabs& slabs, const CellGrid& grid, int slab, SlabPairs& pairs, Room& room);
-  static void searchAcross(const State& state, const Slabs& slabs, const CellGrid& grid, const Periods& periods, int slab, std::vector<Across>& across,
-                           std::vector<Image>& images);
+  static void searchAcross(const State& state, const Slabs& slabs, const CellGrid& grid, const Periods& periods, int slab,
+                           std::vector<Across>& across, std::vector<Image>& images);
   static void addAcross(const std::vector<Across>& across, SlabPairs& pairs);
   void placeImages(State& state, const Slabs& slabs);
   void findOldPlaces(std::size_t grains, const std::vector<std::int32_t>& newPlace);

@@ -25,7 +25,8 @@ class PairMemory {
   PairMemory() = default;
   explicit PairMemory(bool single) : single_(single) {}
 
-  /// Room for these pairs, each column in whole cache lines; what is there for them is to be written, and what lies beyond never read for one.
+  /// Room for these pairs, each column in whole cache lines; what is there for them is to be written, and what lies beyond never read for
+  /// one.
   void fit(std::size_t pairs, std::size_t components) {
     stride_ = single_ ? wholeLines<float>(pairs) : wholeLines<double>(pairs);
     if (single_)

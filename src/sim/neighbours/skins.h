@@ -1,7 +1,7 @@
 #pragma once
 // How far each grain may go before the lists must be made anew: its skin. Two grains are listed when the gap between them is less than the
-// sum of their skins. A skin follows the fastest grain nearby, since that is what may hit the grain next: grains that fall neither fill the lists
-// of those that rest, nor do they leave theirs at once.
+// sum of their skins. A skin follows the fastest grain nearby, since that is what may hit the grain next: grains that fall neither fill the
+// lists of those that rest, nor do they leave theirs at once.
 
 #include <vector>
 

@@ -31,9 +31,9 @@ inline std::vector<int> shareSlabs(const std::vector<double>& work, int threads)
   return begin;
 }
 
-/// \brief Calls evaluate(slab, thread) once for each slab of the blocks (`begin`: see shareSlabs), an odd one after both its neighbours, and
-/// complete(slab, thread) once for each as soon as nothing will be added to it any more and nobody will read it: it and the slab before have been
-/// evaluated.
+/// \brief Calls evaluate(slab, thread) once for each slab of the blocks (`begin`: see shareSlabs), an odd one after both its neighbours,
+/// and complete(slab, thread) once for each as soon as nothing will be added to it any more and nobody will read it: it and the slab before
+/// have been evaluated.
 template <class Evaluate, class Complete>
 void overSlabs(const std::vector<int>& begin, ThreadTeam& team, const Evaluate& evaluate, const Complete& complete) {
   const int count = begin.back(), blocks = static_cast<int>(begin.size()) - 1;

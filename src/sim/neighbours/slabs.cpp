@@ -8,8 +8,8 @@ namespace tsubu::sim {
 
 namespace {
 
-constexpr int mostSlabs = 256;       // three of them in the cache of a core, as far as that goes; few enough for full slabs
-constexpr double mostCells = 4096;   // per axis, within a slab
+constexpr int mostSlabs = 256;      // three of them in the cache of a core, as far as that goes; few enough for full slabs
+constexpr double mostCells = 4096;  // per axis, within a slab
 
 struct Keyed {
   std::uint64_t key;

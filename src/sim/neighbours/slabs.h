@@ -23,8 +23,8 @@ struct Slabs {
   std::int32_t end(int slab) const { return first[static_cast<std::size_t>(slab) + 1]; }
 };
 
-/// The axes of a box from its shortest side to its longest. Grains follow each other along the shortest: the partners of one are then not far
-/// from it in the order.
+/// The axes of a box from its shortest side to its longest. Grains follow each other along the shortest: the partners of one are then not
+/// far from it in the order.
 std::array<int, 3> axesByExtent(const Vec3& extent);
 
 /// \brief The order in which grains are to lie in memory: by slab, then by cells within the slab, then as they were.

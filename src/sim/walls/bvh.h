@@ -47,8 +47,8 @@ class Bvh {
 
   struct Node {
     Box box;
-    std::uint32_t begin = 0, end = 0;   ///< items of the subtree, in `items_`
-    std::uint32_t right = 0;            ///< the left child follows its parent; 0 for a leaf
+    std::uint32_t begin = 0, end = 0;  ///< items of the subtree, in `items_`
+    std::uint32_t right = 0;           ///< the left child follows its parent; 0 for a leaf
   };
 
   template <class Test, class Visit>

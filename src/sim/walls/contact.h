@@ -12,10 +12,10 @@ namespace tsubu::sim {
 
 /// One contact of a sphere with one feature of a wall, in the frame of the wall.
 struct WallContact {
-  Vec3 point;             ///< m: the nearest point of the feature
-  Vec3 normal;            ///< unit, from the wall to the centre of the sphere; defined also when the centre lies on the wall
-  double distance = 0;    ///< m: from the centre to `point`; the overlap is radius − distance. Negative only behind an unbounded plane
-  double weight = 1;      ///< in (0, 1]: the share of the contact law's whole force (spring, dashpot, friction) that acts
+  Vec3 point;           ///< m: the nearest point of the feature
+  Vec3 normal;          ///< unit, from the wall to the centre of the sphere; defined also when the centre lies on the wall
+  double distance = 0;  ///< m: from the centre to `point`; the overlap is radius − distance. Negative only behind an unbounded plane
+  double weight = 1;    ///< in (0, 1]: the share of the contact law's whole force (spring, dashpot, friction) that acts
   std::uint32_t feature = 0;
 };
 

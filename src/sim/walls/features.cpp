@@ -174,9 +174,8 @@ class Builder {
   void startAtCorner(std::vector<int>& vertices, std::vector<std::uint32_t>& chain) const {
     const Vec3 from = at(vertices.front());
     vertices.pop_back();
-    const auto start = std::max_element(vertices.begin(), vertices.end(), [&](int a, int b) {
-      return (at(a) - from).squaredNorm() < (at(b) - from).squaredNorm();
-    });
+    const auto start = std::max_element(vertices.begin(), vertices.end(),
+                                        [&](int a, int b) { return (at(a) - from).squaredNorm() < (at(b) - from).squaredNorm(); });
     std::rotate(chain.begin(), chain.begin() + (start - vertices.begin()), chain.end());
     std::rotate(vertices.begin(), start, vertices.end());
     vertices.push_back(vertices.front());
@@ -191,7 +190,8 @@ class Builder {
 
   /// Two borders of a slit that is narrower than the tolerance have become one line; it is none at all where one face closes over it.
   void closeSlits() {
-    std::stable_sort(lines_.begin(), lines_.end(), [](const Line& x, const Line& y) { return std::tie(x.from, x.to) < std::tie(y.from, y.to); });
+    std::stable_sort(lines_.begin(), lines_.end(),
+                     [](const Line& x, const Line& y) { return std::tie(x.from, x.to) < std::tie(y.from, y.to); });
     std::vector<Line> merged;
     for (Line& line : lines_) {
       if (merged.empty() || merged.back().from != line.from || merged.back().to != line.to) {
@@ -280,7 +280,8 @@ class Builder {
     std::vector<std::vector<TriangleSide>> around(result_.corners.size());  // side k starts at the corner
     for (std::size_t t = 0; t < result_.mesh.triangles.size(); ++t)
       for (int k = 0; k < 3; ++k)
-        if (const std::uint32_t c = cornerOf_[static_cast<std::size_t>(result_.mesh.triangles[t][static_cast<std::size_t>(k)])]; c != noCorner)
+        if (const std::uint32_t c = cornerOf_[static_cast<std::size_t>(result_.mesh.triangles[t][static_cast<std::size_t>(k)])];
+            c != noCorner)
           around[c].push_back({static_cast<int>(t), k});
 
     for (std::size_t c = 0; c < result_.corners.size(); ++c) {
@@ -388,17 +389,15 @@ class Builder {
 
   double tolerance_;
   MeshEdges edges_;
-  std::vector<std::vector<FaceAt>> facesAt_;           ///< of each real mesh edge; empty for one inside a face
-  std::vector<std::vector<std::uint32_t>> atVertex_;   ///< real mesh edges at each vertex
+  std::vector<std::vector<FaceAt>> facesAt_;          ///< of each real mesh edge; empty for one inside a face
+  std::vector<std::vector<std::uint32_t>> atVertex_;  ///< real mesh edges at each vertex
   std::vector<Line> lines_;
-  std::vector<std::uint32_t> cornerOf_;                ///< of each vertex
+  std::vector<std::uint32_t> cornerOf_;  ///< of each vertex
   Features result_;
 };
 
 }  // namespace
 
-Features findFeatures(TriangleMesh mesh, double tolerance, double slack) {
-  return Builder(std::move(mesh), tolerance, slack).build();
-}
+Features findFeatures(TriangleMesh mesh, double tolerance, double slack) { return Builder(std::move(mesh), tolerance, slack).build(); }
 
 }  // namespace tsubu::sim

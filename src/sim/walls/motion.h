@@ -26,9 +26,9 @@ struct Translation {
 
 /// Constant angular velocity about an axis through a point, right-handed.
 struct Rotation {
-  Vec3 point = Vec3::Zero();   ///< m
-  Vec3 axis = Vec3::UnitZ();   ///< any length but zero
-  double angularSpeed = 0;     ///< rad/s
+  Vec3 point = Vec3::Zero();  ///< m
+  Vec3 axis = Vec3::UnitZ();  ///< any length but zero
+  double angularSpeed = 0;    ///< rad/s
 };
 
 /// Displacement amplitude·(sin(2πft + phase) − sin(phase)): the motion starts where the wall was put.
@@ -51,7 +51,7 @@ struct Rocking {
 /// The clock of the motion starts at `start`.
 struct MotionPart {
   std::variant<Translation, Rotation, Oscillation, Rocking> kind;
-  double start = 0;                                       ///< s
+  double start = 0;                                      ///< s
   double end = std::numeric_limits<double>::infinity();  ///< s
 };
 

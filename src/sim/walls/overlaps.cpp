@@ -64,7 +64,8 @@ std::vector<std::pair<int, int>> findOverlaps(const TriangleMesh& mesh, double f
       if (j <= i || std::abs(normals[i].dot(normals[j])) < 0.5) return;
       const Triangle b = corners(mesh, compact[j]);
       const bool coplanar = lies(b, a[0], normals[i], flat) || lies(a, b[0], normals[j], flat);
-      if (coplanar && !separated(a, b, normals[i], 4 * flat)) pairs.emplace_back(static_cast<int>(compact[i]), static_cast<int>(compact[j]));
+      if (coplanar && !separated(a, b, normals[i], 4 * flat))
+        pairs.emplace_back(static_cast<int>(compact[i]), static_cast<int>(compact[j]));
     });
   }
   std::sort(pairs.begin(), pairs.end());

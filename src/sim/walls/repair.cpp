@@ -53,7 +53,8 @@ class FaultList {
       std::sort(triangles.begin(), triangles.end());
       triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
       const auto [remedy, what] = describe(kind);
-      faults.push_back({kind, remedy, triangles, fmt::format("The mesh '{}': {}.", mesh_, fmt::format(fmt::runtime(what), nameTriangles(triangles)))});
+      faults.push_back(
+          {kind, remedy, triangles, fmt::format("The mesh '{}': {}.", mesh_, fmt::format(fmt::runtime(what), nameTriangles(triangles)))});
     }
     return faults;
   }
@@ -72,17 +73,26 @@ class FaultList {
  private:
   static std::pair<MeshRemedy, const char*> describe(MeshFaultKind kind) {
     switch (kind) {
-      case MeshFaultKind::badIndex: return {MeshRemedy::refused, "a vertex that does not exist is named by {}"};
-      case MeshFaultKind::notFinite: return {MeshRemedy::refused, "a vertex is not a finite number in {}"};
-      case MeshFaultKind::empty: return {MeshRemedy::refused, "no triangle has an area"};
-      case MeshFaultKind::degenerate: return {MeshRemedy::repaired, "without area, left out: {}"};
-      case MeshFaultKind::duplicate: return {MeshRemedy::repaired, "repeated from an earlier triangle, left out: {}"};
-      case MeshFaultKind::tJoint: return {MeshRemedy::repaired, "a vertex of another triangle lies inside an edge, which was split: {}"};
-      case MeshFaultKind::sliver: return {MeshRemedy::harmless, "more than ten thousand times longer than wide, kept: {}"};
-      case MeshFaultKind::nonManifold: return {MeshRemedy::harmless, "three or more triangles meet in one edge, kept: {}"};
+      case MeshFaultKind::badIndex:
+        return {MeshRemedy::refused, "a vertex that does not exist is named by {}"};
+      case MeshFaultKind::notFinite:
+        return {MeshRemedy::refused, "a vertex is not a finite number in {}"};
+      case MeshFaultKind::empty:
+        return {MeshRemedy::refused, "no triangle has an area"};
+      case MeshFaultKind::degenerate:
+        return {MeshRemedy::repaired, "without area, left out: {}"};
+      case MeshFaultKind::duplicate:
+        return {MeshRemedy::repaired, "repeated from an earlier triangle, left out: {}"};
+      case MeshFaultKind::tJoint:
+        return {MeshRemedy::repaired, "a vertex of another triangle lies inside an edge, which was split: {}"};
+      case MeshFaultKind::sliver:
+        return {MeshRemedy::harmless, "more than ten thousand times longer than wide, kept: {}"};
+      case MeshFaultKind::nonManifold:
+        return {MeshRemedy::harmless, "three or more triangles meet in one edge, kept: {}"};
       case MeshFaultKind::inconsistentWinding:
         return {MeshRemedy::harmless, "turned the other way than a neighbour, which two-sided walls do not mind: {}"};
-      case MeshFaultKind::overlap: return {MeshRemedy::harmless, "covering the same area of one plane, counted once: {}"};
+      case MeshFaultKind::overlap:
+        return {MeshRemedy::harmless, "covering the same area of one plane, counted once: {}"};
     }
     return {MeshRemedy::refused, ""};
   }
@@ -127,7 +137,8 @@ class Welder {
 
   Cell cellOf(const Vec3& x) const {
     const Vec3 c = (x - lower_) / cell_;
-    return {static_cast<std::int64_t>(std::floor(c.x())), static_cast<std::int64_t>(std::floor(c.y())), static_cast<std::int64_t>(std::floor(c.z()))};
+    return {static_cast<std::int64_t>(std::floor(c.x())), static_cast<std::int64_t>(std::floor(c.y())),
+            static_cast<std::int64_t>(std::floor(c.z()))};
   }
   static std::uint64_t key(const Cell& c) {  // at most 1/(16 · 1e-7) cells a side: 20 bits, and a little room below zero
     return static_cast<std::uint64_t>(c[0] + 1) << 42 | static_cast<std::uint64_t>(c[1] + 1) << 21 | static_cast<std::uint64_t>(c[2] + 1);
@@ -288,7 +299,8 @@ bool splitJoints(RepairedMesh& repaired, FaultList& faults) {
 void noteHarmless(const RepairedMesh& repaired, FaultList& faults) {
   const TriangleMesh& mesh = repaired.mesh;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (height(mesh, mesh.triangles[t]) < sliverFraction * longestSide(mesh, mesh.triangles[t])) faults.add(MeshFaultKind::sliver, repaired.source[t]);
+    if (height(mesh, mesh.triangles[t]) < sliverFraction * longestSide(mesh, mesh.triangles[t]))
+      faults.add(MeshFaultKind::sliver, repaired.source[t]);
   const MeshEdges edges = findMeshEdges(mesh.triangles);
   for (const auto& edge : edges.edges) {
     const auto source = [&](std::uint32_t s) { return repaired.source[static_cast<std::size_t>(edges.sides[s].triangle)]; };
@@ -356,7 +368,8 @@ RepairedMesh repair(const TriangleMesh& mesh) {
   }
   noteHarmless(repaired, faults);
   dropUnusedVertices(repaired.mesh);
-  for (const auto& pair : findOverlaps(repaired.mesh, repaired.flatTolerance)) faults.add(MeshFaultKind::overlap, repaired.source[static_cast<std::size_t>(pair.second)]);
+  for (const auto& pair : findOverlaps(repaired.mesh, repaired.flatTolerance))
+    faults.add(MeshFaultKind::overlap, repaired.source[static_cast<std::size_t>(pair.second)]);
   repaired.faults = faults.list();
   return repaired;
 }

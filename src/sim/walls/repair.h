@@ -16,11 +16,11 @@ inline constexpr double weldFraction = 1e-7;
 inline constexpr double flatFraction = 2.5e-7;
 
 struct RepairedMesh {
-  TriangleMesh mesh;             ///< every vertex used, every triangle with an area, no two alike
-  std::vector<int> source;       ///< the triangle of the original mesh that each came from
-  double weldTolerance = 0;      ///< m
-  double flatTolerance = 0;      ///< m
-  std::vector<MeshFault> faults; ///< repaired and harmless ones
+  TriangleMesh mesh;              ///< every vertex used, every triangle with an area, no two alike
+  std::vector<int> source;        ///< the triangle of the original mesh that each came from
+  double weldTolerance = 0;       ///< m
+  double flatTolerance = 0;       ///< m
+  std::vector<MeshFault> faults;  ///< repaired and harmless ones
 };
 
 /// Throws Error (files) naming all the faults that cannot be repaired.

@@ -25,7 +25,8 @@ double squaredDistanceToFace(const Face& face, const Vec3& point, double reach) 
 Box boxOfTriangles(const Features& features, std::uint32_t face, const std::vector<std::vector<int>>& trianglesOf) {
   Box box;
   for (const int t : trianglesOf[face])
-    for (const int v : features.mesh.triangles[static_cast<std::size_t>(t)]) box.extend(features.mesh.vertices[static_cast<std::size_t>(v)]);
+    for (const int v : features.mesh.triangles[static_cast<std::size_t>(t)])
+      box.extend(features.mesh.vertices[static_cast<std::size_t>(v)]);
   return box;
 }
 
@@ -287,7 +288,8 @@ double Surface::thinnest() const {
     if (area > sample.area) sample = {area, (p + q + r) / 3};
   }
   const double longest = bounds_.diagonal().norm();
-  for (std::uint32_t f = 0; f < faceCount(); ++f) thinnest = std::min(thinnest, thicknessAt(f, samples[f].point, std::min(longest, thinnest)));
+  for (std::uint32_t f = 0; f < faceCount(); ++f)
+    thinnest = std::min(thinnest, thicknessAt(f, samples[f].point, std::min(longest, thinnest)));
   return thinnest;
 }
 
@@ -301,7 +303,8 @@ double Surface::thicknessAt(std::uint32_t face, const Vec3& point, double longes
     const double cosine = plane.normal.dot(normal);
     if (std::abs(cosine) < parallel) return;
     const double t = -plane.signedDistance(point) / cosine;
-    if (std::abs(t) > 4 * features_.slack && std::abs(t) < thickness && features_.faces[other].outline.contains(features_.faces[other].project(point + t * normal)))
+    if (std::abs(t) > 4 * features_.slack && std::abs(t) < thickness &&
+        features_.faces[other].outline.contains(features_.faces[other].project(point + t * normal)))
       thickness = std::abs(t);
   });
   return thickness;

@@ -59,15 +59,15 @@ class Surface {
   bool mayMeet(const Box& box) const;
 
   /// Where the distance from the centre to the wall is locally least and below `radius`, with all weights 1, in ascending order of
-  /// feature. `candidates`: ascending but for the mark `surelyOver`, holding at least every feature nearer than `radius` that is not refused. No
-  /// allocation.
+  /// feature. `candidates`: ascending but for the mark `surelyOver`, holding at least every feature nearer than `radius` that is not
+  /// refused. No allocation.
   void nearestPoints(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates, WallContacts& contacts) const;
 
   /// The contacts of a sphere: its nearest points with the load shared between them (shareLoad).
   void contacts(const Vec3& centre, double radius, std::span<const std::uint32_t> candidates, WallContacts& contacts) const;
 
-  /// m: how far the centre of a sphere may go before the feature can be one of its contacts, as far as that is easily said; 0 when it may be one
-  /// now. A feature is out of question where it is farther than `radius`, but also where others on it come nearer.
+  /// m: how far the centre of a sphere may go before the feature can be one of its contacts, as far as that is easily said; 0 when it may
+  /// be one now. A feature is out of question where it is farther than `radius`, but also where others on it come nearer.
   double refusal(std::uint32_t feature, const Vec3& centre, double radius) const;
 
   /// m: how far the centre may go before its foot can leave the outline of a face; 0 when it is outside.

@@ -46,8 +46,8 @@ struct Cloud {
       const GrainRow &a = rows[static_cast<std::size_t>(i)], &b = rows[static_cast<std::size_t>(j)];
       const Vec3 d(a.x - b.x, a.y - b.y, a.z - b.z);
       const V3 n = 1 / d.norm() * V3{d.x(), d.y(), d.z()};
-      const BondMemory memory{acrossOf({some(1e-6), some(1e-6), some(1e-6)}, n), {some(1e-3), some(1e-3), some(1e-3)},
-                              d.norm() * (1 + some(1e-4))};
+      const BondMemory memory{
+          acrossOf({some(1e-6), some(1e-6), some(1e-6)}, n), {some(1e-3), some(1e-3), some(1e-3)}, d.norm() * (1 + some(1e-4))};
       BondBody body = bodyOf(bonding, std::min(a.radius, b.radius), d.norm(), inertiaOf(a, b));
       if (damping != BondDamping::exponential) body.length = memory.rest;
       bonds.add(i, j, body, memory);
@@ -72,8 +72,7 @@ void stepOneByOne(Cloud& cloud, bool withHalf) {
     const auto i = static_cast<std::size_t>(cloud.bonds.i[k]), j = static_cast<std::size_t>(cloud.bonds.j[k]);
     const GrainRow &a = cloud.rows[i], &b = cloud.rows[j];
     const BondMotion now = motionOf(a, b, &a.vx, &b.vx, &a.sx, &b.sx);
-    const BondMotion moved =
-        withHalf ? motionOf(a, b, &cloud.half[i].vx, &cloud.half[j].vx, &cloud.half[i].sx, &cloud.half[j].sx) : now;
+    const BondMotion moved = withHalf ? motionOf(a, b, &cloud.half[i].vx, &cloud.half[j].vx, &cloud.half[i].sx, &cloud.half[j].sx) : now;
     const V3 d = at(&a.x) - at(&b.x);
     const BondBody body = cloud.bonds.body(k);
     BondMemory memory = cloud.bonds.memory(k);
@@ -103,7 +102,8 @@ void stepOneByOne(Cloud& cloud, bool withHalf) {
 
 template <BondDamping damping, bool breakable>
 void compare(const Kernels& kernels, int bonded, bool withHalf, bool accounts) {
-  SCOPED_TRACE(std::string(kernels.isa) + ", " + std::to_string(bonded) + (withHalf ? ", half-step rows" : "") + (accounts ? ", accounts" : ""));
+  SCOPED_TRACE(std::string(kernels.isa) + ", " + std::to_string(bonded) + (withHalf ? ", half-step rows" : "") +
+               (accounts ? ", accounts" : ""));
   Cloud expected(damping, breakable, bonded), cloud(damping, breakable, bonded);
   stepOneByOne<damping, breakable>(expected, withHalf);
   BondStage stage;

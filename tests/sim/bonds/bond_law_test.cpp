@@ -211,7 +211,8 @@ TEST(BondLaw, PercentTakesAShareOfEachComponent) {
   }
 }
 
-// B4 of vectors: what is held back points against the motion, wherever the force does. Components along axes of our own would say otherwise.
+// B4 of vectors: what is held back points against the motion, wherever the force does. Components along axes of our own would say
+// otherwise.
 TEST(BondLaw, PercentHoldsAgainstTheMotion) {
   const double share = 0.2;
   for (const double angle : {0.0, 0.4, 1.3, 2.8, -2.0}) {
@@ -239,13 +240,15 @@ TEST(BondLaw, DashpotsHoldEachWayOfItsOwn) {
   for (const double sign : {1.0, -1.0}) {
     Led plain = led;
     const double dt = 1e-9, r = led.d.norm();
-    const Vec3 v = sign * (0.3 * axis - 0.7 * side + 0.2 * up), wi = sign * (40 * axis + 25 * side - 90 * up), wj = sign * (-15 * axis + 60 * side + 10 * up);
+    const Vec3 v = sign * (0.3 * axis - 0.7 * side + 0.2 * up), wi = sign * (40 * axis + 25 * side - 90 * up),
+               wj = sign * (-15 * axis + 60 * side + 10 * up);
     Led damped = led;
     damped.lead<BondDamping::viscous>(dt, v, wi, wj, 1);
     plain.lead(dt, v, wi, wj, 1);
     const Vec3 n = damped.d.normalized(), spin = wi - wj, slip = v + (r / (ri + rj)) * n.cross(ri * wi + rj * wj);
     const Vec3 vt = slip - slip.dot(n) * n, wt = spin - spin.dot(n) * n;
-    const double normal = 2 * std::sqrt(led.bonding.stiffness * led.area() / 3.1e5), bend = 2 * std::sqrt(led.bonding.stiffness * led.inertia() / 4.7e11);
+    const double normal = 2 * std::sqrt(led.bonding.stiffness * led.area() / 3.1e5),
+                 bend = 2 * std::sqrt(led.bonding.stiffness * led.inertia() / 4.7e11);
     const double shear = normal * std::sqrt(2.0 / 7.0 / 2.4), twist = bend * std::sqrt(2 / 2.4);  // 2 √(k m) of what each moves
     const Vec3 force = 0.11 * normal * v.dot(n) * n + 0.23 * shear * vt, moment = 0.37 * twist * spin.dot(n) * n + 0.05 * bend * wt;
     EXPECT_LT((vec(plain.force.force) - vec(damped.force.force) - force).norm(), 1e-7 * force.norm());
@@ -288,7 +291,8 @@ TEST(BondLaw, ExponentialForgets) {
   EXPECT_NEAR(work - led.loss, led.stored(), 1e-9 * work);
 }
 
-// A straight rod that is twisted and pulled beyond its strength breaks, though rounding leaves a little of the twist across it, of either sign.
+// A straight rod that is twisted and pulled beyond its strength breaks, though rounding leaves a little of the twist across it, of either
+// sign.
 TEST(BondLaw, TwistedRodsBreakWhenPulled) {
   Bonding bonding = someBonding();
   bonding.strength = {2e6, 5e6, BondStrength::never, 0, BondStrength::never};
@@ -317,7 +321,8 @@ TEST(BondLaw, LoadIsTheWorstStressOverItsStrength) {
     const auto pull = [&](double scale) {
       return BondPull{scale * normal, scale * q * (0.6 * east - 0.8 * north), scale * t, scale * m * (0.28 * east + 0.96 * north)};
     };
-    // What the loop asks is the same question, whatever the size of the load and however stiffness is given: of springs that pull like that.
+    // What the loop asks is the same question, whatever the size of the load and however stiffness is given: of springs that pull like
+    // that.
     for (Bonding bonding : {stiff, elastic}) {
       bonding.strength = strength;
       bonding.radius = 1;

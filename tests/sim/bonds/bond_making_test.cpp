@@ -53,7 +53,7 @@ TEST(BondMaking, JoinsWhoIsNearEnough) {
   s.model.bonds = {glue()};
   s.model.bonds[0].distance = 1.12;  // all 54 neighbours along the edges of the lattice (largest gap 10 %), none across
   EXPECT_EQ(bondsOf(s), 54u);
-  s.model.bonds[0].distance = 1.6;   // and the 72 across faces
+  s.model.bonds[0].distance = 1.6;  // and the 72 across faces
   EXPECT_EQ(bondsOf(s), 54u + 72u);
   s.model.bonds[0].distance = 0.9;
   EXPECT_EQ(bondsOf(s), 0u);
@@ -231,16 +231,18 @@ TEST(SameBonds, AcrossThePeriodicBoundary) {
 TEST(BondLimit, IsSafeAndNotIdle) {
   for (const double factor : {0.98, 3.0}) {
     Scenario s = block(4);
-    for (std::size_t g = 0; g < s.model.grains.size(); ++g) s.model.grains[g].velocity = 1e-6 * Vec3(std::sin(3.0 * static_cast<double>(g)), std::cos(5.0 * static_cast<double>(g)), 0.3);
+    for (std::size_t g = 0; g < s.model.grains.size(); ++g)
+      s.model.grains[g].velocity = 1e-6 * Vec3(std::sin(3.0 * static_cast<double>(g)), std::cos(5.0 * static_cast<double>(g)), 0.3);
     s.model.bonds = {glue()};
     s.model.bonds[0].distance = 1.2;
     s.model.watch.travelLimit = 1e9;
     s.model.watch.stop = false;
     const double limit = 2 / std::sqrt(swingOfBonds([&] {
-      Model m = s.model;
-      m.timeStep = 1;
-      return m;
-    }()).stiffness);
+                                         Model m = s.model;
+                                         m.timeStep = 1;
+                                         return m;
+                                       }())
+                                           .stiffness);
     Simulation sim = s.start(factor * limit);
     const double start = sim.ledger().kinetic();
     double most = 0;

@@ -28,7 +28,9 @@ Scenario crowd(Integrator integrator, const ContactChoice& laws) {
   s.pair[Property::twistingFriction] = 0.05;
   if (laws.tangential == "viscous") s.pair[Property::tangentialDampingRate] = 900;
   Random random(11, 1);
-  const auto some = [&](double size) { return Vec3(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)); };
+  const auto some = [&](double size) {
+    return Vec3(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size));
+  };
   for (int i = 0; i < 27; ++i) {
     const double r = random.uniform(0.8e-3, 2.4e-3);
     const Vec3 x = 5e-3 * Vec3(i % 3 + 0.5, i / 3 % 3 + 0.5, i / 9 + 0.55);
@@ -60,8 +62,10 @@ std::vector<Load> loads(const Instant& instant) {
   return result;
 }
 
-const ContactChoice lawsToSee[] = {{"linear", "spring", "none", false}, {"linear", "spring", "elastic_plastic", true, "spring"},
-                                   {"hertz", "mindlin", "constant", false}, {"linear", "viscous", "none", false}};
+const ContactChoice lawsToSee[] = {{"linear", "spring", "none", false},
+                                   {"linear", "spring", "elastic_plastic", true, "spring"},
+                                   {"hertz", "mindlin", "constant", false},
+                                   {"linear", "viscous", "none", false}};
 
 // m (v′ − v) = ½ (F + F′) Δt in velocity Verlet and F Δt in symplectic Euler, and the same for spin: for every grain in every step.
 TEST(Instant, ForcesAreTheOnesThatMoveTheGrains) {
@@ -234,7 +238,8 @@ TEST(Instant, LookingChangesNothing) {
 }
 
 TEST(Instant, OrderDoesNotDependOnTheThreads) {
-  Simulation one = crowd(Integrator::velocityVerlet, lawsToSee[0]).start(2e-6, 1), three = crowd(Integrator::velocityVerlet, lawsToSee[0]).start(2e-6, 3);
+  Simulation one = crowd(Integrator::velocityVerlet, lawsToSee[0]).start(2e-6, 1),
+             three = crowd(Integrator::velocityVerlet, lawsToSee[0]).start(2e-6, 3);
   one.advance(2500), three.advance(2500);
   const Instant a = one.instant(), b = three.instant();
   ASSERT_EQ(a.contacts.size(), b.contacts.size());
@@ -298,7 +303,8 @@ TEST(Instant, SnapshotsCarryItsContacts) {
     const ActingContact& contact = instant.contacts[k];
     const SeenForce& seen = snapshot.forces[k];
     const Vec3 first = instant.grains[static_cast<std::size_t>(contact.first)].position;
-    const Vec3 second = contact.withWall() ? instant.contactPoint(contact) : instant.grains[static_cast<std::size_t>(contact.second)].position;
+    const Vec3 second =
+        contact.withWall() ? instant.contactPoint(contact) : instant.grains[static_cast<std::size_t>(contact.second)].position;
     walls += contact.withWall() ? 1 : 0;
     EXPECT_LT((seen.first - first).norm() + (seen.second - second).norm(), 1e-15);
     EXPECT_EQ(seen.force, contact.normalForce());

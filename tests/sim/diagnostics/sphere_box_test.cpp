@@ -70,7 +70,8 @@ TEST(SphereBox, PartsAddUpToTheSphere) {
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < 4; ++j)
         for (std::size_t k = 0; k < 4; ++k)
-          sum += volumeWithin(Box(Vec3(cuts[0][i], cuts[1][j], cuts[2][k]), Vec3(cuts[0][i + 1], cuts[1][j + 1], cuts[2][k + 1])), centre, r);
+          sum +=
+              volumeWithin(Box(Vec3(cuts[0][i], cuts[1][j], cuts[2][k]), Vec3(cuts[0][i + 1], cuts[1][j + 1], cuts[2][k + 1])), centre, r);
     EXPECT_NEAR(sum, whole * r * r * r, 3e-14 * r * r * r);
   }
 }

@@ -15,7 +15,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 const Box wide(Vec3(-10, -10, -10), Vec3(10, 10, 10));
 
-SeenGrain grainAt(const Vec3& position, double radius, double mass = 1, const Vec3& velocity = Vec3::Zero(), const Vec3& spin = Vec3::Zero()) {
+SeenGrain grainAt(const Vec3& position, double radius, double mass = 1, const Vec3& velocity = Vec3::Zero(),
+                  const Vec3& spin = Vec3::Zero()) {
   return {position, velocity, spin, radius, mass};
 }
 
@@ -55,7 +56,9 @@ TEST(Survey, CellsOfAGridAddUpToTheRegion) {
   Random random(8, 2);
   Instant instant;
   for (int g = 0; g < 40; ++g) {
-    const auto some = [&](double size) { return Vec3(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)); };
+    const auto some = [&](double size) {
+      return Vec3(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size));
+    };
     instant.grains.push_back(grainAt(some(9), random.uniform(0.2, 3), random.uniform(1, 5), some(2), some(3)));
     if (g > 0) touch(instant, g, g - 1, some(5));
   }
@@ -121,7 +124,8 @@ TEST(Survey, MoreThanTwelveContactsAreCountedTogether) {
 TEST(Survey, TemperatureIsFluctuationAboutTheBulk) {
   Instant instant;
   const Vec3 drift(3, -1, 2);
-  instant.grains = {grainAt({0, 0, 0}, 0.1, 2, drift + Vec3(0.3, 0, 0), {5, 0, 0}), grainAt({1, 0, 0}, 0.2, 3, drift + Vec3(-0.2, 0, 0), {0, 0, -7})};
+  instant.grains = {grainAt({0, 0, 0}, 0.1, 2, drift + Vec3(0.3, 0, 0), {5, 0, 0}),
+                    grainAt({1, 0, 0}, 0.2, 3, drift + Vec3(-0.2, 0, 0), {0, 0, -7})};
   const Survey seen = survey(instant, wide);
   EXPECT_LT((seen.motion.bulkVelocity - drift).norm(), 1e-15);
   EXPECT_NEAR(seen.motion.temperature, (2 * 0.09 + 3 * 0.04) / (3 * 5), 1e-16);

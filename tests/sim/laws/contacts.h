@@ -1,8 +1,8 @@
 #pragma once
 // Contacts, properties and small vector helpers for the tests of laws.
 
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -99,7 +99,8 @@ inline Memory randomMemory(Random& random, const LawTraits& law, const Contact& 
   for (int k = 0; k < law.stateSize; ++k) {
     const Part part = partOf(law, k);
     const double size = part == Part::force ? 0.03 : part == Part::stiffness ? 3000 : 1e-5;
-    memory[static_cast<std::size_t>(k)] = part == Part::stiffness || part == Part::momentStiffness ? random.uniform(0.1 * size, size) : random.uniform(-size, size);
+    memory[static_cast<std::size_t>(k)] =
+        part == Part::stiffness || part == Part::momentStiffness ? random.uniform(0.1 * size, size) : random.uniform(-size, size);
   }
   for (const int first : vectorsIn(law)) {
     double* const m = memory.data() + first;

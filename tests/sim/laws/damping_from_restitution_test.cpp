@@ -41,7 +41,8 @@ double integratedRestitution(double zeta, bool tension) {
 }
 
 TEST(DampingFromRestitution, WithTensionAgreesWithIntegration) {
-  for (const double zeta : {0.001, 0.05, 0.3, 0.6, 0.8, 0.9}) EXPECT_NEAR(restitutionOf(zeta, true), integratedRestitution(zeta, true), 1e-8) << zeta;
+  for (const double zeta : {0.001, 0.05, 0.3, 0.6, 0.8, 0.9})
+    EXPECT_NEAR(restitutionOf(zeta, true), integratedRestitution(zeta, true), 1e-8) << zeta;
   EXPECT_EQ(restitutionOf(1.0, true), 0.0);
   EXPECT_EQ(restitutionOf(3.0, true), 0.0);
 }

@@ -43,7 +43,8 @@ TEST(HertzNormal, ForceIsSpringPlusDashpot) {
   const auto pair = HertzNormal::prepare(test::same(v), true);
   const double modulus = 3e9 / (2 * (1 - 0.09)), radius = 7e-4, delta = 3e-6, mass = 4e-6, speed = -0.2;
   const NormalForce f = HertzNormal::force(pair, headOn(delta, speed, mass, radius), step);
-  const double elastic = 4.0 / 3.0 * modulus * std::sqrt(radius) * std::pow(delta, 1.5), stiffness = 2 * modulus * std::sqrt(radius * delta);
+  const double elastic = 4.0 / 3.0 * modulus * std::sqrt(radius) * std::pow(delta, 1.5),
+               stiffness = 2 * modulus * std::sqrt(radius * delta);
   const double damping = 2 * std::sqrt(5.0 / 6.0) * dampingRatio(0.7, true) * std::sqrt(stiffness * mass);
   EXPECT_NEAR(f.elastic, elastic, 1e-12 * elastic);
   EXPECT_NEAR(f.stiffness, stiffness, 1e-12 * stiffness);

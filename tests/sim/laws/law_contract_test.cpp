@@ -14,8 +14,8 @@ namespace {
 
 using test::evaluate;
 using test::Memory;
-using test::Prepared;
 using test::nameOf;
+using test::Prepared;
 using test::Result;
 using test::v3;
 using test::vec;
@@ -33,7 +33,9 @@ void everyLaw(F&& f) {
   }
 }
 
-void expectNear(const Vec3& a, const Vec3& b, double tolerance) { EXPECT_LE((a - b).norm(), tolerance) << a.transpose() << " | " << b.transpose(); }
+void expectNear(const Vec3& a, const Vec3& b, double tolerance) {
+  EXPECT_LE((a - b).norm(), tolerance) << a.transpose() << " | " << b.transpose();
+}
 
 TEST(LawContract, SwappingThePartnersSwapsForceAndMoment) {
   everyLaw([](std::size_t index, const LawFunctions& law) {
@@ -178,8 +180,12 @@ TEST(LawContract, NothingIsNotANumber) {
       v[p] = value;
       return v;
     };
-    const std::array properties{test::someProperties(),          zeroed(Property::friction),    zeroed(Property::tangentialStiffness),
-                                zeroed(Property::rollingFriction), zeroed(Property::restitution, 1), zeroed(Property::restitution, 1e-6),
+    const std::array properties{test::someProperties(),
+                                zeroed(Property::friction),
+                                zeroed(Property::tangentialStiffness),
+                                zeroed(Property::rollingFriction),
+                                zeroed(Property::restitution, 1),
+                                zeroed(Property::restitution, 1e-6),
                                 zeroed(Property::tangentialDampingRate, 0)};
     for (const PropertyValues& values : properties) {
       for (const bool tension : {false, true}) {
@@ -198,7 +204,8 @@ TEST(LawContract, NothingIsNotANumber) {
             EXPECT_TRUE(r.force.allFinite() && r.couple.allFinite() && r.moment.allFinite());
             for (const double component : r.memory) EXPECT_TRUE(std::isfinite(component));
             const ContactEnergy& e = r.energy;
-            EXPECT_TRUE(std::isfinite(e.storedNormal + e.storedTangential + e.storedRolling + e.normal + e.tangential + e.friction + e.rolling));
+            EXPECT_TRUE(
+                std::isfinite(e.storedNormal + e.storedTangential + e.storedRolling + e.normal + e.tangential + e.friction + e.rolling));
           }
         }
       }
@@ -235,8 +242,14 @@ class Loop {
     for (double& p : a_) p = amplitude * random.uniform(-1, 1);
     for (double& p : phase_) p = random.uniform(0, 2 * std::numbers::pi);
   }
-  double at(double t) const { return sum(t, [](double x) { return std::sin(x); }, false); }
-  double rate(double t) const { return sum(t, [](double x) { return std::cos(x); }, true); }
+  double at(double t) const {
+    return sum(
+        t, [](double x) { return std::sin(x); }, false);
+  }
+  double rate(double t) const {
+    return sum(
+        t, [](double x) { return std::cos(x); }, true);
+  }
 
  private:
   template <class F>
@@ -261,7 +274,7 @@ TEST(LawContract, ClosedPathsNeverGainEnergy) {
       const double period = std::pow(10.0, random.uniform(-4, 0)), depth = 5e-5, width = std::pow(10.0, random.uniform(-6, -3));
       const Loop overlap(random, depth), x(random, width), y(random, width), turnX(random, width / 1e-3), turnY(random, width / 1e-3);
       PropertyValues values = test::someProperties();
-      if (n % 3 == 0) values[Property::restitution] = 1;                               // nothing is lost along n …
+      if (n % 3 == 0) values[Property::restitution] = 1;                                 // nothing is lost along n …
       if (n % 3 == 0) values[Property::tangentialDampingRate] = random.uniform(0, 3e4);  // … so that a gain across it shows
       const Prepared pair(index, values, n % 2 == 0);
       for (const double lead : {0.5, 1.0}) {

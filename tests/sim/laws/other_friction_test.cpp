@@ -173,11 +173,11 @@ TEST(FrozenSpringFriction, CreatesEnergyWhereTheLoadFalls) {
       const TangentialForce f = Law::force(pair, sliding({speed, 0, 0}), pressing(load, 1000), {dt, 0.5}, memory);
       work -= f.force.x * speed * dt;
     };
-    for (int k = 0; k < 1000; ++k) step(0.2, 1);     // stretched to 900 · 2e-4 = 0.18 N, sticking under 0.5 N
+    for (int k = 0; k < 1000; ++k) step(0.2, 1);  // stretched to 900 · 2e-4 = 0.18 N, sticking under 0.5 N
     held = Law::stored(pair, memory);
     for (int k = 0; k < 1000; ++k) step(-0.2, 0.1);  // led back under 0.05 N: slides, pushed along by its own spring
     for (int k = 0; k < 1; ++k) step(0, 1);
-    work -= Law::stored(pair, memory);               // what is left in the spring could still be had
+    work -= Law::stored(pair, memory);  // what is left in the spring could still be had
   };
   cycle.operator()<FrozenSpringFriction>(frozenWork);
   cycle.operator()<SpringFriction>(cutWork);
@@ -264,8 +264,8 @@ TEST(MindlinDisplacementFriction, ForceFollowsTheStiffness) {
   EXPECT_NEAR(norm(force({0, 0, 0}, 1, 5000)), 10 * mu * 1e-3, 1e-16);
 }
 
-// What is wrong with it: led aside by s, pressed harder while it holds still, and led back, it gives ½ (k₂ − k₁) s² more than it got, and the
-// account shows that as friction below zero. With T8 the same way costs energy. A falling load is the same in both.
+// What is wrong with it: led aside by s, pressed harder while it holds still, and led back, it gives ½ (k₂ − k₁) s² more than it got, and
+// the account shows that as friction below zero. With T8 the same way costs energy. A falling load is the same in both.
 TEST(MindlinDisplacementFriction, CreatesEnergyWhereTheLoadRises) {
   const double ratio = 2 * (1 - 0.27) / (2 - 0.27), low = 1500, high = 5000, s = 2e-6;
   const double difference = 0.5 * ratio * (high - low) * s * s;

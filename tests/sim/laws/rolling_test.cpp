@@ -147,7 +147,8 @@ TEST(ViscousRolling, NeverReverses) {
   PropertyValues v;
   v[Property::rollingViscosity] = 1e12;
   NoMemory<Family::rolling> none;
-  const RollingMoment m = ViscousRolling::moment(ViscousRolling::prepare(test::same(v)), rolling({0, 30, 0}), pressing(0.5), {dt, 0.5}, none);
+  const RollingMoment m =
+      ViscousRolling::moment(ViscousRolling::prepare(test::same(v)), rolling({0, 30, 0}), pressing(0.5), {dt, 0.5}, none);
   EXPECT_NEAR(m.moment.y / inertia * dt, -30.0 / 16, 1e-13);
 }
 

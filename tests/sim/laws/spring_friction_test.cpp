@@ -32,7 +32,9 @@ Contact sliding(V3 slip) {
   return c;
 }
 
-NormalForce pressing(double force, double damping = 0) { return {force, force, 0, normalStiffness, damping, damping / std::sqrt(normalStiffness)}; }
+NormalForce pressing(double force, double damping = 0) {
+  return {force, force, 0, normalStiffness, damping, damping / std::sqrt(normalStiffness)};
+}
 
 // T1: while the contact sticks, the force is k_t times the displacement so far plus the dashpot.
 TEST(SpringFriction, SticksLikeASpringWithADashpot) {
@@ -117,7 +119,8 @@ TEST(SpringFriction, FastLightSlideBuysNoEnergy) {
     VectorMemory memory{};
     double work = 0;
     const auto lead_on = [&](double speed, double load, int steps) {
-      for (int n = 0; n < steps; ++n) work += SpringFriction::force(pair, sliding({speed, 0, 0}), pressing(load), {dt, lead}, memory).force.x * speed * dt;
+      for (int n = 0; n < steps; ++n)
+        work += SpringFriction::force(pair, sliding({speed, 0, 0}), pressing(load), {dt, lead}, memory).force.x * speed * dt;
     };
     lead_on(v, light, 100);
     lead_on(1e-4, 1, 300000);

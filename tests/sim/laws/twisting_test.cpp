@@ -46,7 +46,8 @@ TEST(SpringTwisting, YieldsAtItsLimitAndHoldsThere) {
   ScalarMemory memory{};
   const double limit = 0.2 * radius * 0.5;
   RollingMoment m{};
-  for (int step = 0; step < 20000; ++step) m = SpringTwisting::moment(pairWith(0.2), twisting({0, 60, 80}), pressing(0.5), {dt, 0.5}, memory);
+  for (int step = 0; step < 20000; ++step)
+    m = SpringTwisting::moment(pairWith(0.2), twisting({0, 60, 80}), pressing(0.5), {dt, 0.5}, memory);
   EXPECT_NEAR(norm(m.moment), limit, 1e-12 * limit);
   const RollingMoment held = SpringTwisting::moment(pairWith(0.2), twisting({0, 0, 0}), pressing(0.5), {dt, 0.5}, memory);
   EXPECT_NEAR(norm(held.moment), limit, 1e-12 * limit);
@@ -57,7 +58,8 @@ TEST(SpringTwisting, FollowsAGrowingStiffness) {
   GrowingScalarMemory memory{};
   double given = 0;
   for (int step = 0; step < 100; ++step) {
-    const RollingMoment m = SpringTwisting::moment(pairWith(0.2), twisting({0, 0, 4}), pressing(5, stiffness * (1 + 0.01 * step)), {dt, 0.5}, memory);
+    const RollingMoment m =
+        SpringTwisting::moment(pairWith(0.2), twisting({0, 0, 4}), pressing(5, stiffness * (1 + 0.01 * step)), {dt, 0.5}, memory);
     given -= m.moment.z * 4 * dt;
   }
   const double held = 0.5 * memory.spring * memory.spring / memory.stiffness;

@@ -9,7 +9,9 @@
 namespace tsubu::sim::test {
 namespace {
 
-WallContact contact(const Vec3& normal, double distance, std::uint32_t feature = 0) { return {-distance * normal, normal, distance, 1, feature}; }
+WallContact contact(const Vec3& normal, double distance, std::uint32_t feature = 0) {
+  return {-distance * normal, normal, distance, 1, feature};
+}
 
 Vec3 tilted(double angle) { return {std::sin(angle), 0, std::cos(angle)}; }
 
@@ -78,7 +80,8 @@ TEST(ShareLoad, SatisfiesTheConditionsOfItsMaximum) {
     const int count = 2 + trial % (WallContacts::capacity - 1);
     const double spread = trial % 3 == 0 ? 3.0 : trial % 3 == 1 ? 0.3 : 0.03;
     for (int i = 0; i < count; ++i)
-      all.push(contact((Vec3::UnitZ() + spread * randomDirection(random)).normalized(), random.uniform(0.09, 0.1), static_cast<std::uint32_t>(i)));
+      all.push(contact((Vec3::UnitZ() + spread * randomDirection(random)).normalized(), random.uniform(0.09, 0.1),
+                       static_cast<std::uint32_t>(i)));
     WallContacts kept = all;
     shareLoad(kept, 0.1);
     ASSERT_FALSE(kept.empty());
@@ -115,7 +118,8 @@ TEST(ShareLoad, TheForceIsTheGradientOfTheEnergy) {
       const Vec3 force = probe.force(centre, radius);
       several += probe.contacts(centre, radius).size() > 1;
       for (int k = 0; k < 3; ++k) {
-        const double slope = (probe.energy(centre + h * Vec3::Unit(k), radius) - probe.energy(centre - h * Vec3::Unit(k), radius)) / (2 * h);
+        const double slope =
+            (probe.energy(centre + h * Vec3::Unit(k), radius) - probe.energy(centre - h * Vec3::Unit(k), radius)) / (2 * h);
         // Rounding 1e-16·U/h, and the kink in the force's slope where a contact begins: both far below the force, up to 2.5e-3.
         EXPECT_NEAR(force[k], -slope, 2e-8);
       }

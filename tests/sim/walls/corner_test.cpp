@@ -156,7 +156,8 @@ void expectNoJumps(const TriangleMesh& mesh, double radius, std::uint64_t seed, 
     const WallContacts& near = probe.nearestPoints(centre, 3 * radius);
     if (near.empty()) continue;
     // Start at a small overlap with the nearest feature, so that the walk stays in places where grains can be.
-    const WallContact* nearest = std::min_element(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.distance < b.distance; });
+    const WallContact* nearest =
+        std::min_element(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.distance < b.distance; });
     const Vec3 normal = nearest->normal;
     centre = nearest->point + (1 - 0.5 * deepest) * radius * normal;
     const Vec3 direction = (randomDirection(random).cross(normal) + 0.02 * randomDirection(random)).normalized();
@@ -169,7 +170,8 @@ void expectNoJumps(const TriangleMesh& mesh, double radius, std::uint64_t seed, 
       const Vec3 force = deep ? Vec3(Vec3::Zero()) : probe.force(centre, radius);
       if (known && !deep) {
         ++compared;
-        ASSERT_LT((force - before).norm(), 3 * step) << "line " << line << " at " << centre.transpose() << " along " << direction.transpose();
+        ASSERT_LT((force - before).norm(), 3 * step)
+            << "line " << line << " at " << centre.transpose() << " along " << direction.transpose();
       }
       before = force;
       known = !deep;

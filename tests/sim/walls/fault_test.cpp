@@ -16,7 +16,8 @@ const MeshFault* find(const Surface& surface, MeshFaultKind kind) {
   return nullptr;
 }
 
-void expectFault(const TriangleMesh& mesh, MeshFaultKind kind, MeshRemedy remedy, const std::vector<int>& triangles, const std::string& sentence) {
+void expectFault(const TriangleMesh& mesh, MeshFaultKind kind, MeshRemedy remedy, const std::vector<int>& triangles,
+                 const std::string& sentence) {
   const Surface surface(mesh);
   const MeshFault* fault = find(surface, kind);
   ASSERT_NE(fault, nullptr);
@@ -49,7 +50,8 @@ TEST(Fault, Degenerate) {
   TriangleMesh mesh = square();
   addTriangle(mesh, {0, 0, 0}, {0.5, 0.5, 0}, {1, 1, 0});  // collinear
   addTriangle(mesh, {0, 0, 0}, {0, 0, 0}, {1, 1, 0});      // two corners at one place
-  expectFault(mesh, MeshFaultKind::degenerate, MeshRemedy::repaired, {2, 3}, "The mesh 'square.stl': without area, left out: triangles 2 and 3.");
+  expectFault(mesh, MeshFaultKind::degenerate, MeshRemedy::repaired, {2, 3},
+              "The mesh 'square.stl': without area, left out: triangles 2 and 3.");
   EXPECT_EQ(Surface(mesh).faceCount(), 1u);
 }
 

@@ -20,8 +20,8 @@ std::vector<WallMotion> someMotions() {
   const MotionPart shake{Oscillation{{0.01, 0, 0.02}, 5, 0.4}};
   const MotionPart rock{Rocking{{-0.1, 0, 0}, {0, 2, 1}, 0.3, 2, 1}};
   const MotionPart late{Rotation{{0, 0.5, 0}, {0, 0, 1}, -2}, 0.35, 0.8};
-  return {WallMotion({slide}), WallMotion({turn}), WallMotion({shake}), WallMotion({rock}), WallMotion({late}), WallMotion({turn, shake}),
-          WallMotion({shake, turn}), WallMotion({rock, slide, late, turn, shake})};
+  return {WallMotion({slide}), WallMotion({turn}),        WallMotion({shake}),       WallMotion({rock}),
+          WallMotion({late}),  WallMotion({turn, shake}), WallMotion({shake, turn}), WallMotion({rock, slide, late, turn, shake})};
 }
 
 TEST(Motion, StandsStillByDefault) {

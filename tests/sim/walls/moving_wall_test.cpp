@@ -134,8 +134,8 @@ Scenario lidOnACloud(Integrator integrator) {
   Random random(9, 1);
   for (int n = 0; n < 27; ++n) {
     const double r = random.uniform(0.7e-3, 1.6e-3);
-    s.grain(9000 * r * r * r, r, 4e-3 * Vec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1), Vec3(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), -0.2),
-            {0, 90, 0});
+    s.grain(9000 * r * r * r, r, 4e-3 * Vec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1),
+            Vec3(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), -0.2), {0, 90, 0});
   }
   for (int axis = 0; axis < 2; ++axis)
     for (const double side : {-1.0, 1.0}) s.plane(-side * 0.009 * Vec3::Unit(axis), side * Vec3::Unit(axis));

@@ -42,7 +42,8 @@ inline TriangleMesh makeCone(int n, double radiusLow, double zLow, double radius
     const double phi = 2 * std::numbers::pi * (k % n) / n;
     return Vec3(radius * std::cos(phi), radius * std::sin(phi), z);
   };
-  for (int k = 0; k < n; ++k) addQuad(mesh, at(k, radiusLow, zLow), at(k + 1, radiusLow, zLow), at(k + 1, radiusHigh, zHigh), at(k, radiusHigh, zHigh));
+  for (int k = 0; k < n; ++k)
+    addQuad(mesh, at(k, radiusLow, zLow), at(k + 1, radiusLow, zLow), at(k + 1, radiusHigh, zHigh), at(k, radiusHigh, zHigh));
   return mesh;
 }
 
