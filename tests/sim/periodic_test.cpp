@@ -304,6 +304,45 @@ TEST(Periodic, BallRollsOnForEver) {
   EXPECT_NEAR(residual[2], residual[0], 0.02 * residual[0]);
 }
 
+// A grain that is glued to a belt goes round and round with it, and holds as it does on a belt without end.
+TEST(Periodic, BondsWithWallsGoOnBeyondTheBoundary) {
+  std::array<Vec3, 2> place, velocity;
+  std::array<Ledger, 2> ledger;
+  for (const bool wraps : {false, true}) {
+    Scenario s;
+    s.model.contact = {"linear", "spring", "none", false};
+    s.model.gravity = {3, 0, 9.81};
+    s.pair[Property::normalStiffness] = 3000;
+    s.pair[Property::restitution] = 0.4;
+    s.pair[Property::friction] = 0.5;
+    if (wraps) {
+      s.model.domain = Box(Vec3(-0.01, -0.008, -1), Vec3(0.01, 0.008, 1));
+      s.model.periodic = {true, true, false};
+    }
+    Bonding glue;
+    glue.name = "glue";
+    glue.wall = 0;
+    glue.distance = 1.1;
+    glue.modulus = 1e7;
+    glue.strength = {1e5, BondStrength::never, 1e5, 0, BondStrength::never};
+    s.model.bonds = {glue};
+    s.plane({0, 0, 0}, {0, 0, 1}, WallMotion({{Translation{{0.4, 0, 0}}, 0, 1e9}}));
+    s.grain(1e-5, 1e-3, {8e-3, 1e-3, 1.05e-3}, {0.4, 0, 0});
+    Simulation sim = s.start(2e-6);
+    sim.advance(100000);  // four rounds
+    EXPECT_EQ(sim.counts().bonds, 1U);
+    place[wraps] = look(sim).position[0];
+    velocity[wraps] = look(sim).velocity[0];
+    ledger[wraps] = sim.ledger();
+  }
+  const double around = place[0].x() - place[1].x();
+  EXPECT_NEAR(around, 0.02 * std::round(around / 0.02), 1e-9);
+  EXPECT_NEAR(std::round(around / 0.02), 4, 0.5);
+  EXPECT_LT((velocity[0] - velocity[1]).norm(), 1e-6);
+  EXPECT_NEAR(ledger[0].elasticBonds, ledger[1].elasticBonds, 1e-5 * ledger[0].elasticBonds);
+  EXPECT_NEAR(ledger[0].workWalls, ledger[1].workWalls, 1e-5 * std::abs(ledger[0].workWalls));
+}
+
 /// What the ledger of an inclined, periodic chute cannot explain, over what was turned over: grains flow through it again and again.
 double residualOfChute(double dt) {
   Scenario s = gas({true, true, false}, Integrator::velocityVerlet, 90);

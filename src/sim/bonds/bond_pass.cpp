@@ -126,7 +126,7 @@ void BondPass::settle(const World& world, Kind& kind, BondColumns& all, WallBond
   std::stable_sort(wallOrder.begin(), wallOrder.end(), [&](std::size_t a, std::size_t b) { return walls.bonds.i[a] < walls.bonds.i[b]; });
   for (const std::size_t k : wallOrder) slabs[static_cast<std::size_t>(world.slabs.of(walls.bonds.i[k]))].wall.take(walls, k);
   if (kind.bonding->wall) {
-    for (SlabBonds& slab : slabs) slab.wall.place(world.model.walls[*kind.bonding->wall].motion, world.state.rows, world.time, world.way);
+    for (SlabBonds& slab : slabs) slab.wall.place(world.model.walls[*kind.bonding->wall].motion, world.state.rows, world.periods, world.time, world.way);
     slabs.front().wall.work = walls.work;
   }
   kind.slabs = std::move(slabs);
@@ -165,7 +165,7 @@ void BondPass::evaluate(const World& world) {
           wall.work.add(0);
           continue;
         }
-        wall.place(world.model.walls[*kind.bonding->wall].motion, state.rows, world.time, dt);
+        wall.place(world.model.walls[*kind.bonding->wall].motion, state.rows, world.periods, world.time, dt);
         const BondRows feet{wall.rows.data(), !state.half.empty() ? wall.half.data() : nullptr, wall.forces.data()};
         if (state.half.empty())  // the rows of the other schemes have the velocities of the half step
           for (std::size_t k = 0; k < wall.rows.size(); ++k) {
@@ -243,7 +243,7 @@ void BondPass::letGo(const World& world) {
       if (!slab.foundAtWall.broken.empty()) {
         letGo(world, kind, slab.wall.bonds, slab.wall.rows, slab.foundAtWall);
         slab.wall.drop(marks(slab.wall.bonds, slab.foundAtWall));
-        slab.wall.place(world.model.walls[*kind.bonding->wall].motion, world.state.rows, world.time, world.way);
+        slab.wall.place(world.model.walls[*kind.bonding->wall].motion, world.state.rows, world.periods, world.time, world.way);
       }
     }
     if (!kind.foundFar.broken.empty()) {
@@ -398,7 +398,7 @@ double BondPass::storedIn(const World& world, const std::vector<char>& grains) c
 void BondPass::addLinks(const World& world, std::vector<Link>& links) const {
   visit(world.state, [&](const Kind& kind, const BondColumns& bonds, std::size_t k, const std::vector<GrainRow>& second, bool wall) {
     const GrainRow &a = world.state.rows[static_cast<std::size_t>(bonds.i[k])], &b = second[static_cast<std::size_t>(bonds.j[k])];
-    const Vec3 branch = wall ? Vec3(positionOf(a) - positionOf(b)) : between(world, a, b);
+    const Vec3 branch = between(world, a, b);
     const double length = branch.norm();
     const BondBody body = bonds.body(k);
     const BondKind& c = kind.constants;

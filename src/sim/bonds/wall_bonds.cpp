@@ -29,7 +29,7 @@ void WallBonds::drop(const std::vector<char>& marked) {
   std::iota(bonds.j.begin(), bonds.j.end(), 0);
 }
 
-void WallBonds::place(const WallMotion& motion, const std::vector<GrainRow>& grains, double time, double dt) {
+void WallBonds::place(const WallMotion& motion, const std::vector<GrainRow>& grains, const Periods& periods, double time, double dt) {
   rows.resize(foot.size());
   half.resize(foot.size());
   forces.assign(foot.size(), ForceRow{});
@@ -37,8 +37,14 @@ void WallBonds::place(const WallMotion& motion, const std::vector<GrainRow>& gra
   const Twist twist = motion.twistAt(time);
   const Vec3 spin = motion.twistAt(time - 0.5 * dt).angularVelocity;
   for (std::size_t k = 0; k < foot.size(); ++k) {
-    const double r = tinyRadius * grains[static_cast<std::size_t>(bonds.i[k])].radius;
-    const Vec3 x = now.toWorld(foot[k]), v = twist.at(x), u = (x - before.toWorld(foot[k])) / dt;
+    const GrainRow& grain = grains[static_cast<std::size_t>(bonds.i[k])];
+    const double r = tinyRadius * grain.radius;
+    const Vec3 home = now.toWorld(foot[k]), v = twist.at(home), u = (home - before.toWorld(foot[k])) / dt;
+    Vec3 x = home;
+    if (periods.any()) {
+      const Vec3 branch = Vec3(grain.x, grain.y, grain.z) - home;
+      x -= periods.nearest(branch) - branch;
+    }
     const Vec3 s = r * twist.angularVelocity, w = r * spin;
     rows[k] = {x.x(), x.y(), x.z(), r, v.x(), v.y(), v.z(), 0, s.x(), s.y(), s.z(), 1 / r};
     half[k] = {u.x(), u.y(), u.z(), 0, w.x(), w.y(), w.z(), 0};

@@ -7,6 +7,7 @@
 #include "sim/bonds/bond_columns.h"
 #include "sim/grain_rows.h"
 #include "sim/ledger.h"
+#include "sim/periodic.h"
 #include "sim/walls/motion.h"
 
 namespace tsubu::sim {
@@ -23,8 +24,8 @@ struct WallBonds {
   void add(std::int32_t grain, const Vec3& place, const BondBody& body, const BondMemory& memory);
   void take(const WallBonds& from, std::size_t k);
   void drop(const std::vector<char>& marked);
-  /// Puts the feet where the wall is at that time.
-  void place(const WallMotion& motion, const std::vector<GrainRow>& grains, double time, double dt);
+  /// Puts the feet where the wall is at that time: the image that is nearest to the grain.
+  void place(const WallMotion& motion, const std::vector<GrainRow>& grains, const Periods& periods, double time, double dt);
   /// Of a step, with the forces that the bonds have put on the feet.
   void addWork(double dt);
 };
