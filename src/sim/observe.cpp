@@ -14,8 +14,6 @@ namespace tsubu::sim {
 
 namespace {
 
-Vec3 positionOf(const GrainRow& row) { return {row.x, row.y, row.z}; }
-
 std::vector<std::size_t> byId(const State& state) {
   std::vector<std::size_t> order(state.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

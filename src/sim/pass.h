@@ -33,7 +33,7 @@ struct World {
   State& state;
   const Slabs& slabs;
   PairLists& pairs;
-  const Periods& periods;  ///< differences of positions are `periods.nearest(x_i − x_j)`
+  const Periods& periods;  ///< see `between`
   const WallPass& walls;
   ThreadTeam& team;
   Vec3 gravity;  ///< m/s²
@@ -43,6 +43,9 @@ struct World {
   double way;    ///< s: the step that led here
   double share;  ///< s: the time that an evaluation stands for in accounts of energy: Δt, or less where a step has several
   std::function<double(std::int32_t, std::int32_t)> contactEnergy;  ///< J: in the contact of two grains, by place
+
+  /// x_a − x_b, m: across the boundary of a periodic domain when that is shorter.
+  Vec3 between(const GrainRow& a, const GrainRow& b) const { return periods.nearest(positionOf(a) - positionOf(b)); }
 };
 
 class ForcePass {

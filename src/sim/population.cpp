@@ -12,8 +12,6 @@ namespace tsubu::sim {
 
 namespace {
 
-Vec3 positionOf(const GrainRow& row) { return {row.x, row.y, row.z}; }
-
 // Inlets look for room this often: in the time in which a grain moves this share of its radius.
 constexpr double arrivalTravel = 0.25;
 

@@ -1,6 +1,7 @@
 #pragma once
 // The inside of a Simulation, shared by the files that implement it: the step (simulation.cpp), its neighbour lists
-// (refresh_lists.cpp), who comes and goes (population.cpp) and what can be seen (observe.cpp).
+// (refresh_lists.cpp), who comes and goes (population.cpp), the length of a step (change_step.cpp), hard hits (sweep.cpp) and what can be
+// seen (observe.cpp, diagnostics/instant.cpp).
 
 #include <array>
 #include <limits>

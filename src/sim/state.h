@@ -12,6 +12,8 @@
 
 namespace tsubu::sim {
 
+inline Vec3 positionOf(const GrainRow& row) { return {row.x, row.y, row.z}; }
+
 /// Rows, forces and materials may go on beyond the grains: images of grains across a periodic boundary (neighbours/pair_lists.h).
 struct State {
   std::vector<GrainRow> rows;

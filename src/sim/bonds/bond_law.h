@@ -132,8 +132,9 @@ TSUBU_INLINE BondPull pullOf(const BondSprings& k, const BondStrain& strain) {
   return {k.along * strain.stretch, -k.across * strain.shear, -k.twist * strain.twist, -k.bend * strain.bend};
 }
 
-/// B7–B10: the largest of the stresses over its strength, r its length over the first one. 1 breaks.
-/// Stresses: along the bond (positive in compression), in the outermost fibre by bending, across it with what torsion adds.
+/// B7–B10, for pictures: the largest of the stresses over their strengths and of r over r_max; at 1 a bond breaks. `bondHolds` decides,
+/// without quotients; a test holds the two together. Stresses: along the bond (positive in compression), in the outermost fibre by bending,
+/// across it with what torsion adds.
 TSUBU_INLINE double bondLoad(const BondStrength& strength, const BondBody& body, const BondPull& pull, double r) {
   const double area = bondPi * body.radius * body.radius, section = 0.25 * area * body.radius;  // I/r_b, half of J/r_b
   const double axial = pull.along / area, fibre = norm(pull.bend) / section;

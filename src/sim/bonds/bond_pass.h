@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "sim/bonds/bond_columns.h"
-#include "sim/bonds/bond_search.h"
 #include "sim/bonds/wall_bonds.h"
 #include "sim/kernel/kernels.h"
 #include "sim/pass.h"
@@ -58,6 +57,7 @@ class BondPass : public ForcePass {
     double radius, time;
   };
 
+  static void collect(const Kind& kind, BondColumns& all, WallBonds& walls);
   void makeDue(const World& world);
   void make(const World& world, std::size_t kind);
   void evaluate(const World& world);

@@ -5,6 +5,7 @@
 
 #include "core/random.h"
 #include "sim/neighbours/cell_grid.h"
+#include "sim/state.h"
 
 namespace tsubu::sim {
 
@@ -16,8 +17,6 @@ constexpr std::uint64_t footKey = 0x626f6e6477;  // "bondw"
 bool drawn(const Bonding& bonding, std::uint64_t seed, std::uint64_t what, std::size_t kind, std::uint64_t ids) {
   return bonding.probability >= 1 || Random(seed, mix64(what + kind), ids).uniform() < bonding.probability;
 }
-
-Vec3 positionOf(const GrainRow& row) { return {row.x, row.y, row.z}; }
 
 }  // namespace
 
@@ -51,7 +50,7 @@ std::vector<BondedPair> bondablePairs(const Bonding& bonding, std::size_t kind, 
       if (grains.periods.nearest(positionOf(row) - positionOf(partner)).norm() > bonding.distance * (row.radius + partner.radius)) continue;
       std::int32_t i = g, j = other;
       if (grains.ids[static_cast<std::size_t>(i)] > grains.ids[static_cast<std::size_t>(j)]) std::swap(i, j);
-      const std::uint64_t ids = (std::uint64_t{grains.ids[static_cast<std::size_t>(i)]} << 32) | grains.ids[static_cast<std::size_t>(j)];
+      const std::uint64_t ids = keyOfPair(grains.ids[static_cast<std::size_t>(i)], grains.ids[static_cast<std::size_t>(j)]);
       if (drawn(bonding, seed, pairKey, kind, ids)) pairs.push_back({i, j});
     }
   }

@@ -38,6 +38,9 @@ std::vector<BondedPair> bondablePairs(const Bonding& bonding, std::size_t kind, 
 std::vector<WallFoot> bondableFeet(const Bonding& bonding, std::size_t kind, std::uint64_t seed, const BondableGrains& grains,
                                    const Wall& wall, const Pose& pose);
 
+/// One number of two ids or places, the same whichever comes first.
+inline std::uint64_t keyOfPair(std::uint32_t a, std::uint32_t b) { return (std::uint64_t{a < b ? a : b} << 32) | (a < b ? b : a); }
+
 /// What has half the reduced mass and inertia of two grains to do with each other: sums of 1/m and 1/I.
 struct BondInertia {
   double inverseMass, inverseMoment;

@@ -5,12 +5,6 @@
 #include "sim/kernel/kernels.h"
 #include "sim/kernel/lanes.h"
 
-#if defined(__clang__)
-#define TSUBU_BONDS_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
-#else
-#define TSUBU_BONDS_INDEPENDENT _Pragma("GCC ivdep")
-#endif
-
 namespace tsubu::sim {
 namespace {
 
@@ -114,19 +108,19 @@ struct BondChunk {
 // bond; most of all for roots and quotients, which end a loop therefore.
 
 void findPaths(int count, double dt, BondStage& s) {
-  TSUBU_BONDS_INDEPENDENT
+  TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) {
     const BondLength length = lengthOf(at(s.d, q), s.radiusSum[q], at(s.half.velocity, q), dt);
     s.r[q] = length.r, s.perR[q] = length.perR, s.perRadiusSum[q] = length.perRadiusSum, s.perMiddle2[q] = length.perMiddle2;
   }
-  TSUBU_BONDS_INDEPENDENT
+  TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) {
     const BondPath path = pathOf(at(s.d, q), lengthAt(s, q), at(s.half.velocity, q), spinSumAt(s.half, q), dt);
     put(s.n, q, path.n);
     put(s.rotation, q, path.rotation);
     put(s.sheared, q, path.sheared);
   }
-  TSUBU_BONDS_INDEPENDENT
+  TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) s.scale[q] = scaleOf(at(s.rotation, q));
 }
 
@@ -139,7 +133,7 @@ void stretchBonds(const BondKind& given, const BondChunk& bonds, int count, doub
   double* const rest = bonds.column[BondColumns::rest];
   const double* const springAlong = bonds.column[BondColumns::springAlong];
   const double* const springBend = bonds.column[BondColumns::springBend];
-  TSUBU_BONDS_INDEPENDENT
+  TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) {
     BondMemory memory{at(shear, q), at(turn, q), relaxes ? rest[q] : 0};
     const BondBody body{0, relaxes ? springAlong[q] : 0, relaxes ? springBend[q] : 0, 0, 0, 0};
@@ -157,7 +151,7 @@ void pullBonds(const BondKind& given, const BondChunk& bonds, int count, double 
   using Name = BondColumns;
   const BondKind kind = given;
   const auto& c = bonds.column;
-  TSUBU_BONDS_INDEPENDENT
+  TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) {
     const BondMemory memory = bonds.memory(q);
     // What does not relax still has its first length as the length at rest: a column less to read.
@@ -192,20 +186,13 @@ inline void addToLanes(const double* column, int count, double* lane) {
   for (int q = whole; q < count; ++q) lane[q - whole] += column[q];
 }
 
-/// Three columns of four bonds as rows.
-TSUBU_INLINE void toRows(const BondStage::Column* columns, int q, D4 (&rows)[4]) {
-  rows[0] = load4(columns[0] + q), rows[1] = load4(columns[1] + q), rows[2] = load4(columns[2] + q);
-  rows[3] = D4{};
-  transpose4(rows[0], rows[1], rows[2], rows[3]);
-}
-
 /// Adds the columns of up to four bonds to the rows of both ends.
 TSUBU_INLINE void scatterFourBonds(ForceRow* first, ForceRow* second, const std::int32_t* is, const std::int32_t* js, int count, int q,
                                    const BondStage& s) {
   D4 force[4], coupleI[4], coupleJ[4];
-  toRows(s.force, q, force);
-  toRows(s.coupleI, q, coupleI);
-  toRows(s.coupleJ, q, coupleJ);
+  toRows(s.force[0] + q, s.force[1] + q, s.force[2] + q, force);
+  toRows(s.coupleI[0] + q, s.coupleI[1] + q, s.coupleI[2] + q, coupleI);
+  toRows(s.coupleJ[0] + q, s.coupleJ[1] + q, s.coupleJ[2] + q, coupleJ);
   for (int k = 0; k < count; ++k) {
     double* const a = &first[is[k]].fx;
     double* const b = &second[js[k]].fx;

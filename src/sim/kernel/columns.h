@@ -187,13 +187,9 @@ TSUBU_INLINE void memoryToColumns(typename Law::template MemoryIn<Real>& memory,
 /// Forces, couples and moments of four contacts as rows.
 template <class Shape>
 TSUBU_INLINE void forceRows(const Stage& s, int q, D4 (&f)[4], D4 (&c)[4], D4 (&m)[4]) {
-  const auto turn = [q](const double* x, const double* y, const double* z, D4(&rows)[4]) __attribute__((always_inline)) {
-    rows[0] = load4(x + q), rows[1] = load4(y + q), rows[2] = load4(z + q), rows[3] = D4{};
-    transpose4(rows[0], rows[1], rows[2], rows[3]);
-  };
-  turn(s.fx, s.fy, s.fz, f);
-  if constexpr (Shape::turns) turn(s.qx, s.qy, s.qz, c);
-  if constexpr (Shape::rolls) turn(s.mx, s.my, s.mz, m);
+  toRows(s.fx + q, s.fy + q, s.fz + q, f);
+  if constexpr (Shape::turns) toRows(s.qx + q, s.qy + q, s.qz + q, c);
+  if constexpr (Shape::rolls) toRows(s.mx + q, s.my + q, s.mz + q, m);
 }
 
 /// Adds the columns of up to four contacts to the rows of both grains. T = −r Q + M, so a moment is −M/r in Q, which differs for the two.

@@ -1,6 +1,7 @@
 #pragma once
 // Four doubles or eight single numbers at once: how rows of grains become columns of the stage and back. Compiler vectors: the same source
-// for every instruction set, and only loads, sums, shuffles and conversions, so the same bits.
+// for every instruction set, with intrinsics where the compiler has no words; nothing that rounds otherwise anywhere (a product is fused
+// where it is exact alone), so the same bits.
 
 #include <cstdint>
 #include <cstring>
@@ -14,6 +15,14 @@
 
 // Always inlined, so that no calling convention is involved.
 #pragma GCC diagnostic ignored "-Wpsabi"
+
+// The contacts or bonds of a chunk do not depend on each other: the compiler need not check. (Not `omp simd`: GCC would give every lane its
+// own copy of the small structs of a law and then fail to vectorise them.)
+#if defined(__clang__)
+#define TSUBU_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define TSUBU_INDEPENDENT _Pragma("GCC ivdep")
+#endif
 
 namespace tsubu::sim {
 
@@ -176,8 +185,8 @@ TSUBU_INLINE unsigned whereLess(const D8& a, const D8& b) {
 #ifdef __AVX512F__
   return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
 #elif defined(__AVX__)
-  const auto bits = [](const D4& low, const D4& high) __attribute__((always_inline)) {
-    return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(low, high, _CMP_LT_OQ)));
+  const auto bits = [](const D4& x, const D4& y) __attribute__((always_inline)) {
+    return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(x, y, _CMP_LT_OQ)));
   };
   return bits(a.low, b.low) | bits(a.high, b.high) << 4;
 #else
@@ -262,5 +271,11 @@ TSUBU_INLINE void transpose8(F8 (&r)[8]) {
   for (int k = 0; k < 4; ++k) std::swap(r[k].high, r[k + 4].low);
 }
 #endif
+
+/// Three columns as rows, of which the fourth number is 0.
+TSUBU_INLINE void toRows(const double* x, const double* y, const double* z, D4 (&rows)[4]) {
+  rows[0] = load4(x), rows[1] = load4(y), rows[2] = load4(z), rows[3] = D4{};
+  transpose4(rows[0], rows[1], rows[2], rows[3]);
+}
 
 }  // namespace tsubu::sim

@@ -3,22 +3,17 @@
 // instruction set; everything here has internal linkage or is inlined, so that no instruction of a wide set leaks into code that every
 // processor runs.
 
+#include <algorithm>
+
 #include "sim/kernel/columns.h"
 #include "sim/kernel/kernels.h"
 #include "sim/laws/catalogue.h"
 
-// The contacts of a chunk do not depend on each other: the compiler need not check. (Not `omp simd`: GCC would give every lane its
-// own copy of the small structs of a law and then fail to vectorise them.)
-#if defined(__clang__)
-#define TSUBU_INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
-#else
-#define TSUBU_INDEPENDENT _Pragma("GCC ivdep")
-#endif
-
 namespace tsubu::sim {
 namespace {
 
-/// What a reciprocal is taken of at least: of a product of lengths and masses in single precision, more than of a length.
+/// The least distance that is divided by. More in single precision: there the reciprocal is that of a product with radii and masses, which
+/// must not underflow.
 template <class Real>
 constexpr Real leastDivisor = single<Real> ? Real(1e-12) : tinyIn<Real>;
 
@@ -68,7 +63,7 @@ TSUBU_INLINE V3In<Real> directionAt(const StageIn<Real>& s, int q) {
 }
 
 /// Velocities along the normal and across it, over the relative velocities: for laws with friction.
-template <bool weighted, class Real>
+template <bool ofWalls, class Real>
 void findSlip(int count, StageIn<Real>& s) {
   TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) {
@@ -78,8 +73,8 @@ void findSlip(int count, StageIn<Real>& s) {
     const V3In<Real> spin{s.sx[q], s.sy[q], s.sz[q]};
     const V3In<Real> slip = dv - separationSpeed * n - s.arm[q] * cross(spin, n);
     s.dvx[q] = slip.x, s.dvy[q] = slip.y, s.dvz[q] = slip.z;
-    // Between grains the mean is weighted with the radii, which the sum of r ω gives for nothing; any mean turns with the pair.
-    const V3In<Real> frameSpin = weighted ? V3In<Real>{s.ox[q], s.oy[q], s.oz[q]} : s.perRadiusSum[q] * spin;
+    // Any mean turns with the pair: between grains the one weighted by the radii, which comes for nothing with the sum of r ω.
+    const V3In<Real> frameSpin = ofWalls ? V3In<Real>{s.ox[q], s.oy[q], s.oz[q]} : s.perRadiusSum[q] * spin;
     s.frameSpin[q] = dot(frameSpin, n);
   }
 }
@@ -112,6 +107,7 @@ TSUBU_INLINE ContactIn<Real> contactAt(const StageIn<Real>& s, int q) {
   c.effectiveMass = s.effectiveMass[q];
   c.inverseEffectiveMass = s.inverseMassSum[q];
   c.rootMass = s.rootMass[q];
+  c.frameAngle = 0;
   if constexpr (Law::readsRadius) c.effectiveRadius = s.effectiveRadius[q];
   if constexpr (Law::turns) c.slip = {s.dvx[q], s.dvy[q], s.dvz[q]};
   if constexpr (Law::rolls) {
@@ -123,7 +119,7 @@ TSUBU_INLINE ContactIn<Real> contactAt(const StageIn<Real>& s, int q) {
 
 /// What springs store at the instant of the forces. Only rows of the ledger ask for it: the law is evaluated for them once more, before it
 /// advances the memory, and nothing else is kept.
-template <class Law, bool oneClass, bool weighted, class Real>
+template <class Law, bool oneClass, bool ofWalls, class Real>
 void observe(const typename Law::template PairIn<Real>& known, StepIn<Real> step, int count, StageIn<Real>& s,
              Real* const (&columns)[mostMemory]) {
   const typename Law::template PairIn<Real> only = known;
@@ -135,7 +131,7 @@ void observe(const typename Law::template PairIn<Real>& known, StepIn<Real> step
     ContactEnergyIn<Real> energy{};
     const typename Law::template PairIn<Real> pair = oneClass ? only : pairFromColumns<Law>(s.constants, q);
     Law::template evaluate<true>(pair, c, step, held, energy);
-    const Real share = weighted ? s.weight[q] : 1;
+    const Real share = ofWalls ? s.weight[q] : 1;
     s.account[Accounts::storedNormal][q] = touching ? share * energy.storedNormal : 0;
     s.account[Accounts::storedTangential][q] = touching ? share * energy.storedTangential : 0;
     s.account[Accounts::storedRolling][q] = touching ? share * energy.storedRolling : 0;
@@ -174,7 +170,7 @@ struct Ahead {
 
 /// The law on every contact of the chunk. `memory` points to the columns of the contacts' memory; `asBefore`: the constants of the stage
 /// are those of these contacts already.
-template <class Law, bool oneClass, bool accounts, bool weighted, class Real>
+template <class Law, bool oneClass, bool accounts, bool ofWalls, class Real>
 void compute(const PassContext& context, int count, StageIn<Real>& s, Real* const* memory, bool asBefore, Ahead& ahead) {
   typename Law::template PairIn<Real> only{};
   if constexpr (oneClass)
@@ -184,7 +180,7 @@ void compute(const PassContext& context, int count, StageIn<Real>& s, Real* cons
   ahead.ask<Real>();
   findDirections<ShapeOf<Law>>(count, s);
   ahead.ask<Real>();
-  if constexpr (Law::turns) findSlip<weighted>(count, s);
+  if constexpr (Law::turns) findSlip<ofWalls>(count, s);
   ahead.ask<Real>();
   if (!oneClass || Law::Normal::readsRootMass(only.normal))
     findRootMass(count, s);
@@ -195,7 +191,7 @@ void compute(const PassContext& context, int count, StageIn<Real>& s, Real* cons
   for (int k = 0; k < mostMemory; ++k) columns[k] = k < Law::stateSize ? memory[k] : nullptr;
   if constexpr (Law::stateSize > 0) carryMemory<Law>(step.turning, count, s, columns);
   if constexpr (accounts)
-    if (context.observed) observe<Law, oneClass, weighted>(only, step, count, s, columns);
+    if (context.observed) observe<Law, oneClass, ofWalls>(only, step, count, s, columns);
   ahead.ask<Real>();
   TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) {
@@ -206,7 +202,7 @@ void compute(const PassContext& context, int count, StageIn<Real>& s, Real* cons
     ContactEnergyIn<Real> energy{};
     const typename Law::template PairIn<Real> pair = oneClass ? only : pairFromColumns<Law>(s.constants, q);
     const ContactForceIn<Real> result = Law::template evaluate<accounts>(pair, c, step, held, energy);
-    const Real share = weighted ? s.weight[q] : 1;
+    const Real share = ofWalls ? s.weight[q] : 1;
     s.fx[q] = touching ? share * result.force.x : 0;
     s.fy[q] = touching ? share * result.force.y : 0;
     s.fz[q] = touching ? share * result.force.z : 0;

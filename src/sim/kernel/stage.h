@@ -29,7 +29,7 @@ struct alignas(64) StageIn {
   // In, for rolling laws.
   Column rx, ry, rz;         // ω_i − ω_j
   Column inverseInertiaSum;  // 1/(m_i r_i²) + 1/(m_j r_j²)
-  // In, when watched: the smaller radius. In, for walls: the share of a face in a contact that several faces carry.
+  // In, when observed: the smaller radius. In, for walls: the share of a face in a contact that several faces carry.
   Column smallerRadius, weight;
   Column armScale;  // of pairs that touch sooner or later than their radii say; only when there are such
   // In, when there is more than one class of pairs: row × column of the materials, and the constants of that pair.

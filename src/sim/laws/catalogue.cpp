@@ -34,7 +34,7 @@ std::size_t indexIn(const LawFamily& family, const std::string& name) {
 template <class T>
 T fromDoubles(const double* from) {
   T value{};
-  if constexpr (numbersIn < T >> 0) std::memcpy(&value, from, sizeof(T));
+  if constexpr (!std::is_empty_v<T>) std::memcpy(&value, from, sizeof(T));
   return value;
 }
 

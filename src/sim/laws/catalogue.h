@@ -1,5 +1,5 @@
 #pragma once
-// THE list of contact laws. A law is a header beside this one, a test that mirrors it, and its name in one of the three lists below.
+// THE list of contact laws. A law is a header beside this one, a test that mirrors it, and its name in one of the four lists below.
 // The lists feed the scene reader and its messages, the reference page, the kernels, the law contract and the benchmarks.
 
 #include <array>

@@ -12,14 +12,15 @@ struct ContactIn {
   V3In<Real> n;               ///< unit normal, from j to i
   Real overlap;               ///< δ = r_i + r_j − |x_ij|, m; positive when touching
   Real separationSpeed;       ///< v_n = v_ij·n, m/s; negative while approaching
-  V3In<Real> slip;            ///< v_t, velocity of i's surface over j's at the contact point, m/s
+  V3In<Real> slip;            ///< v_t, velocity of i's surface over j's at the contact point, m/s; only set for laws with friction
   V3In<Real> relativeSpin;    ///< ω_i − ω_j, rad/s; only set for laws that resist rolling
   Real effectiveMass;         ///< m*, kg
   Real inverseEffectiveMass;  ///< 1/m*, 1/kg
   Real rootMass;              ///< √m*, √kg; 0 where the normal law does not read it
   Real effectiveRadius;       ///< R*, m; only set for laws that read it
   Real inverseSpinInertia;    ///< 1/I_i + 1/I_j, 1/(kg m²); only set for laws that resist rolling
-  Real frameAngle;            ///< ω̄·n Δt, rad: how far the contact turns about n in a step, ω̄ a mean of ω_i and ω_j
+  Real frameAngle;  ///< ω̄·n Δt, rad: how far the contact turns about n in a step, ω̄ a mean of ω_i and ω_j; for `carry` alone,
+                    ///< which the kernels call before a law with an angle of their own: 0 there
 };
 using Contact = ContactIn<double>;
 

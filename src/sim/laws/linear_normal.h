@@ -29,7 +29,7 @@ struct LinearNormal {
   static constexpr std::string_view name = "linear";
   static constexpr std::string_view sentence = "Linear spring and dashpot (N1): stiffness independent of overlap and radius.";
   static constexpr std::array reads{need(Property::normalStiffness), needEither(Property::restitution, Property::normalDampingRate)};
-  static constexpr bool growing = false;  ///< does the stiffness depend on the overlap?
+  static constexpr bool growing = false;  ///< see normal.h
   static constexpr bool common = true;
 
   template <class Real>

@@ -1,5 +1,8 @@
 #pragma once
-// What every normal law returns.
+// What every normal law returns. A normal law has: name, sentence, reads; PairIn<Real> and prepare; stiffness and damping, for the time
+// step; readsRootMass (where it says no, the contact's √m* is 0); force, which may read n, overlap, separationSpeed and masses; `common`
+// (tangential.h); `growing`: does its stiffness depend on the contact, overlap or R*, and not on the materials alone? Only then is R* sure
+// to be there.
 
 #include "sim/laws/contact.h"
 

@@ -28,7 +28,7 @@
 //   T7   k_t = 8 G* √(R* δ) = (4 G*/E*) S,   1/G* = (2−ν_i)/G_i + (2−ν_j)/G_j,   G = E/(2(1+ν))
 //   T8   what becomes of a stretched spring whose stiffness changes: memory.h
 //
-// Source: Cundall & Strack 1979; cutting back the spring at the limit after Luding; Mindlin 1949, with the rescaling of Thornton,
+// Source: Cundall & Strack 1979; luding_spring after Luding; Mindlin 1949, with the rescaling of Thornton,
 // Cummins & Cleary, Powder Technology 210 (2011) 189. Proven by tests/sim/laws/spring_friction_test.cpp.
 
 #include "sim/laws/hertz_normal.h"

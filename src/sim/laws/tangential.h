@@ -22,7 +22,8 @@ using TangentialForce = TangentialForceIn<double>;
 
 // A tangential law says: does it `act`; does it `needGrowing` stiffness, that of a Hertz contact; is it `passive` (never gives more
 // energy than it got); does its force stay `withinLimit`, that of Coulomb; is it `common` enough for loops of its own without accounts,
-// for a single material and in single precision.
+// for a single material and in single precision. It has: MemoryIn<growing, Real>, one of those of memory.h, and `stored` where that is not
+// NoMemory; PairIn<Real> and prepare(values, k_n or NaN where it grows, rescales); force; mode, for the time step.
 
 /// No friction: no tangential force, no torque, no memory.
 struct Frictionless {
