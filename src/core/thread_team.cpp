@@ -32,13 +32,23 @@ ThreadTeam::~ThreadTeam() {
 }
 
 void ThreadTeam::run(int tasks, const std::function<void(int, int)>& task) {
+  run(
+      tasks, [&](int thread) { return static_cast<int>(static_cast<std::int64_t>(tasks) * thread / used_); }, task);
+}
+
+void ThreadTeam::run(const std::vector<int>& begin, const std::function<void(int, int)>& task) {
+  run(
+      begin.back(), [&](int thread) { return begin.at(static_cast<std::size_t>(thread)); }, task);
+}
+
+template <class First>
+void ThreadTeam::run(int tasks, const First& first, const std::function<void(int, int)>& task) {
   if (used_ == 1 || tasks <= 1) {
     for (int k = 0; k < tasks; ++k) task(k, 0);
     return;
   }
   task_ = &task;
   for (int thread = 0; thread < used_; ++thread) {
-    const auto first = [&](int share) { return static_cast<int>(static_cast<std::int64_t>(tasks) * share / used_); };
     Seat& seat = seats_[static_cast<std::size_t>(thread)];
     seat.next = first(thread);
     seat.end = first(thread + 1);

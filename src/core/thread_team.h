@@ -31,8 +31,13 @@ class ThreadTeam {
 
   /// Calls task(k, thread) for k in [0, tasks), thread in [0, threads()), and returns when all are done. Rethrows the first exception.
   void run(int tasks, const std::function<void(int, int)>& task);
+  /// The same with given shares: thread k begins with the tasks from begin[k] on; begin[used()] is their number.
+  void run(const std::vector<int>& begin, const std::function<void(int, int)>& task);
 
  private:
+  /// `first`: of the tasks of a thread.
+  template <class First>
+  void run(int tasks, const First& first, const std::function<void(int, int)>& task);
   void work(int thread);
   void takeTasks(int thread);
   void begin(int threads);

@@ -101,12 +101,11 @@ void HeatPass::addForces(const World& world) {
   conductance_.assign(n, 0);
   fromWalls_.assign(static_cast<std::size_t>(slabs), 0);
   across_.assign(static_cast<std::size_t>(slabs), {});
-  for (int parity = 0; parity < 2; ++parity) {
-    world.team.run((slabs + 1 - parity) / 2, [&](int task, int) {
-      conduct(world, 2 * task + parity);
-      conductWalls(world, 2 * task + parity);
-    });
-  }
+  const auto evaluate = [&](int slab, int) {
+    conduct(world, slab);
+    conductWalls(world, slab);
+  };
+  overSlabs(world.order, world.team, evaluate, [](int, int) {});
   for (const std::vector<Across>& slab : across_) {
     for (const Across& across : slab) {
       flow_[static_cast<std::size_t>(across.owner)] += across.flow;

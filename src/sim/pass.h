@@ -13,6 +13,7 @@
 #include "sim/ledger.h"
 #include "sim/model.h"
 #include "sim/neighbours/pair_lists.h"
+#include "sim/neighbours/slab_order.h"
 #include "sim/neighbours/slabs.h"
 #include "sim/periodic.h"
 #include "sim/state.h"
@@ -32,6 +33,7 @@ struct World {
   const Model& model;
   State& state;
   const Slabs& slabs;
+  const SlabOrder& order;
   PairLists& pairs;
   const Periods& periods;  ///< see `between`
   const WallPass& walls;

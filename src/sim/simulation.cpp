@@ -146,6 +146,7 @@ World Simulation::Impl::world(double t, double share) {
   return {model,
           state,
           slabs,
+          slabOrder,
           pairs,
           periods,
           walls,
@@ -230,6 +231,7 @@ std::vector<double> Simulation::Impl::workOfSlabs() const {
 template <class Real>
 void Simulation::Impl::evaluateContactsIn(For whom, std::vector<StageIn<Real>>& pairStages) {
   walls.settle();
+  slabOrder = orderSlabs(workOfSlabs(), team.used());
   const auto onPairs = pairKernel<Real>(law, {classes.grains.alike, accountsKnown});
   const auto onWalls = wallKernel(law, {classes.walls.alike, accountsKnown});
   const PassContext grainsWorld = context(classes.grains, onPairs.oneClass), wallsWorld = context(classes.walls, onWalls.oneClass);
@@ -259,7 +261,7 @@ void Simulation::Impl::evaluateContactsIn(For whom, std::vector<StageIn<Real>>& 
   };
   moved = whom == For::step && contactsActAlone();
   motions.assign(static_cast<std::size_t>(count), Motion{});
-  overSlabs(shareSlabs(workOfSlabs(), team.used()), team, evaluate, [&](int slab, int thread) {
+  overSlabs(slabOrder, team, evaluate, [&](int slab, int thread) {
     if (moved) return moveSlab(slab, thread);
     if (!state.mixed) return;
     const SlabPairs& list = pairs.slabs()[static_cast<std::size_t>(slab)];

@@ -15,6 +15,7 @@
 #include "sim/neighbours/cell_grid.h"
 #include "sim/neighbours/drift.h"
 #include "sim/neighbours/pair_lists.h"
+#include "sim/neighbours/slab_order.h"
 #include "sim/neighbours/slabs.h"
 #include "sim/network.h"
 #include "sim/pair_constants.h"
@@ -69,6 +70,7 @@ class Simulation::Impl {
   Periods periods;
 
   Slabs slabs;
+  SlabOrder slabOrder;  ///< in which the present step works on them
   CellGrid grid;
   PairLists pairs;
   WallPass walls;

@@ -26,6 +26,16 @@ TEST_P(ThreadTeamOf, TakesEveryTaskOnce) {
   }
 }
 
+// Shares may differ, and be empty; whoever has nothing left takes from others.
+TEST_P(ThreadTeamOf, TakesEveryTaskOfGivenShares) {
+  ThreadTeam team(GetParam());
+  std::vector<int> begin{0};
+  for (int thread = 0; thread < team.threads(); ++thread) begin.push_back(begin.back() + (thread % 2 == 0 ? 50 : 0));
+  std::vector<int> taken(static_cast<std::size_t>(begin.back()), 0);
+  team.run(begin, [&](int task, int) { ++taken[static_cast<std::size_t>(task)]; });
+  EXPECT_EQ(taken, std::vector<int>(taken.size(), 1));
+}
+
 // What one run wrote, the next one reads, without a lock: run() returns only when all is done and visible. Under the thread
 // sanitizer this is the test that a missing barrier fails.
 TEST_P(ThreadTeamOf, EveryRunSeesWhatTheLastOneWrote) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -37,7 +39,7 @@ TEST(SlabOrder, OddSlabsWaitForBothNeighbours) {
       std::vector<double> work(slabs);
       for (std::size_t k = 0; k < slabs; ++k) work[k] = k % 9 < 4 ? 0 : Random(8, k).uniform(0, 10);
       overSlabs(
-          shareSlabs(work, threads), team, [&](int slab, int) { note(evaluated, slab, 1); },
+          orderSlabs(work, threads), team, [&](int slab, int) { note(evaluated, slab, 1); },
           [&](int slab, int) { note(completed, slab, 2); });
       for (std::size_t k = 0; k < slabs; ++k) {
         EXPECT_EQ(evaluated[k].times, 1);
@@ -56,28 +58,60 @@ TEST(SlabOrder, OddSlabsWaitForBothNeighbours) {
   }
 }
 
-// Grains fall at one end and lie at the other: no block has much more to do than another, and all slabs are in one.
-TEST(SlabOrder, BlocksHaveAboutTheSameWork) {
-  for (const int threads : {1, 2, 5}) {
-    std::vector<double> work;
-    for (int slab = 0; slab < 61; ++slab) work.push_back(slab < 30 ? 10 : 50 * (slab - 29));
-    const std::vector<int> begin = shareSlabs(work, threads);
-    ASSERT_EQ(begin.front(), 0);
-    ASSERT_EQ(begin.back(), 61);
-    ASSERT_LE(begin.size(), static_cast<std::size_t>(blocksPerThread * threads) + 1);
-    ASSERT_GT(begin.size(), static_cast<std::size_t>(2 * threads));
-    double total = 0, most = 0;
-    for (std::size_t b = 0; b + 1 < begin.size(); ++b) {
-      ASSERT_LT(begin[b], begin[b + 1]);
-      EXPECT_EQ(begin[b] % 2, 0);
-      double own = 0;
-      for (int slab = begin[b]; slab < begin[b + 1]; ++slab) own += work[static_cast<std::size_t>(slab)];
-      total += own, most = std::max(most, own);
+// Grains fall at one end and lie at the other: no thread has much more to do than another, and every slab is done.
+TEST(SlabOrder, ThreadsHaveAboutTheSameWork) {
+  for (const int threads : {1, 2, 3, 5}) {
+    for (const int slabs : {37, 38, 39, 40, 61}) {
+      SCOPED_TRACE(std::to_string(slabs) + " slabs, " + std::to_string(threads) + " threads");
+      std::vector<double> work;
+      for (int slab = 0; slab < slabs; ++slab) work.push_back(slab < 10 ? 10 : 50 + slab);
+      const SlabOrder order = orderSlabs(work, threads);
+      ASSERT_EQ(order.begin.size(), static_cast<std::size_t>(threads) + 1);
+      ASSERT_EQ(order.begin.back(), static_cast<int>(order.tasks.size()));
+      // Of each thread: the even slabs, and the odd ones between them; what lies between two threads goes to who has less to do.
+      std::vector<double> own(static_cast<std::size_t>(threads), 0);
+      std::vector<int> owner(static_cast<std::size_t>(slabs), -1);
+      for (std::size_t t = 0; t < own.size(); ++t)
+        for (int n = order.begin[t]; n < order.begin[t + 1]; ++n)
+          if (const int slab = order.tasks[static_cast<std::size_t>(n)]; slab % 2 == 0)
+            owner[static_cast<std::size_t>(slab)] = static_cast<int>(t);
+      int between = 0;
+      for (std::size_t slab = 0; slab < owner.size(); slab += 2) {
+        ASSERT_GE(owner[slab], 0);
+        own[static_cast<std::size_t>(owner[slab])] += work[slab];
+      }
+      for (std::size_t odd = 1; odd < owner.size(); odd += 2) {
+        const int low = owner[odd - 1], high = odd + 1 < owner.size() ? owner[odd + 1] : low;
+        ASSERT_LE(low, high);
+        const bool isTask = std::count(order.tasks.begin(), order.tasks.end(), static_cast<int>(odd)) == 1;
+        EXPECT_EQ(isTask, low != high) << odd;
+        between += low != high;
+        const int to = own[static_cast<std::size_t>(low)] < own[static_cast<std::size_t>(high)] ? low : high;
+        own[static_cast<std::size_t>(to)] += work[odd];
+      }
+      EXPECT_EQ(between, threads - 1);
+      const double total = std::accumulate(work.begin(), work.end(), 0.0);
+      EXPECT_LE(*std::max_element(own.begin(), own.end()), total / threads + (threads > 2 ? 1.5 : 1.0) * work.back());
     }
-    EXPECT_LE(most, total / (blocksPerThread * threads) + 2 * work.back());  // a block ends at an even slab
   }
-  EXPECT_EQ(shareSlabs({}, 2), std::vector<int>{0});
-  EXPECT_EQ(shareSlabs({0, 0, 0}, 2), (std::vector<int>{0, 2, 3}));
+}
+
+// The slab between two threads is left for the end, and its neighbours are done first: nobody waits for it.
+TEST(SlabOrder, TwoThreadsBeginAtTheSlabBetweenThem) {
+  const SlabOrder order = orderSlabs(std::vector<double>(38, 1.0), 2);
+  EXPECT_EQ(order.tasks, (std::vector<int>{18, 0, 2, 4, 6, 8, 10, 12, 14, 16, 19, 20, 22, 24, 26, 28, 30, 32, 34, 36}));
+  EXPECT_EQ(order.begin, (std::vector<int>{0, 11, 20}));
+}
+
+TEST(SlabOrder, MoreThreadsThanSlabs) {
+  EXPECT_TRUE(orderSlabs({}, 2).tasks.empty());
+  EXPECT_EQ(orderSlabs({}, 2).begin, (std::vector<int>{0, 0, 0}));
+  for (const double work : {0.0, 1.0}) {
+    const SlabOrder order = orderSlabs({work, work, work}, 5);
+    EXPECT_EQ(order.begin.size(), 6U);
+    EXPECT_EQ(std::count(order.tasks.begin(), order.tasks.end(), 0), 1);
+    EXPECT_EQ(std::count(order.tasks.begin(), order.tasks.end(), 2), 1);
+  }
 }
 
 // One thread goes back and forth among neighbours, which lie in its cache, and not through all even slabs first.
@@ -85,7 +119,7 @@ TEST(SlabOrder, OneThreadGoesThroughNeighboursTogether) {
   ThreadTeam team(1);
   std::vector<int> order;
   overSlabs(
-      shareSlabs(std::vector<double>(9, 1.0), 1), team, [&](int slab, int) { order.push_back(slab); }, [](int, int) {});
+      orderSlabs(std::vector<double>(9, 1.0), 1), team, [&](int slab, int) { order.push_back(slab); }, [](int, int) {});
   for (std::size_t n = 1; n < order.size(); ++n) EXPECT_LE(std::abs(order[n] - order[n - 1]), 3) << n;
 }
 

@@ -123,30 +123,29 @@ void BondPass::evaluate(const World& world) {
   const double dt = world.way;
   stages_.resize(static_cast<std::size_t>(world.team.threads()));
   const BondRows grains{state.rows.data(), !state.half.empty() ? state.half.data() : nullptr, state.forces.data()};
-  for (int parity = 0; parity < 2; ++parity) {
-    world.team.run((world.slabs.count() + 1 - parity) / 2, [&](int task, int thread) {
-      BondStage& stage = stages_[static_cast<std::size_t>(thread)];
-      for (Kind& kind : kinds_) {
-        SlabBonds& slab = kind.slabs[static_cast<std::size_t>(2 * task + parity)];
-        slab.found = slab.foundAtWall = {};
-        kind.kernel(kind.constants, slab.near, grains, grains, dt, stage, slab.found);
-        WallBonds& wall = slab.wall;
-        if (wall.foot.empty()) {
-          wall.work.add(0);
-          continue;
-        }
-        wall.place(world.model.walls[*kind.bonding->wall].motion, state.rows, world.periods, world.time, dt);
-        const BondRows feet{wall.rows.data(), !state.half.empty() ? wall.half.data() : nullptr, wall.forces.data()};
-        if (state.half.empty())  // the rows of the other schemes have the velocities of the half step
-          for (std::size_t k = 0; k < wall.rows.size(); ++k) {
-            std::copy_n(&wall.half[k].vx, 3, &wall.rows[k].vx);
-            std::copy_n(&wall.half[k].sx, 3, &wall.rows[k].sx);
-          }
-        kind.kernel(kind.constants, wall.bonds, grains, feet, dt, stage, slab.foundAtWall);
-        wall.addWork(dt);
+  const auto evaluate = [&](int s, int thread) {
+    BondStage& stage = stages_[static_cast<std::size_t>(thread)];
+    for (Kind& kind : kinds_) {
+      SlabBonds& slab = kind.slabs[static_cast<std::size_t>(s)];
+      slab.found = slab.foundAtWall = {};
+      kind.kernel(kind.constants, slab.near, grains, grains, dt, stage, slab.found);
+      WallBonds& wall = slab.wall;
+      if (wall.foot.empty()) {
+        wall.work.add(0);
+        continue;
       }
-    });
-  }
+      wall.place(world.model.walls[*kind.bonding->wall].motion, state.rows, world.periods, world.time, dt);
+      const BondRows feet{wall.rows.data(), !state.half.empty() ? wall.half.data() : nullptr, wall.forces.data()};
+      if (state.half.empty())  // the rows of the other schemes have the velocities of the half step
+        for (std::size_t k = 0; k < wall.rows.size(); ++k) {
+          std::copy_n(&wall.half[k].vx, 3, &wall.rows[k].vx);
+          std::copy_n(&wall.half[k].sx, 3, &wall.rows[k].sx);
+        }
+      kind.kernel(kind.constants, wall.bonds, grains, feet, dt, stage, slab.foundAtWall);
+      wall.addWork(dt);
+    }
+  };
+  overSlabs(world.order, world.team, evaluate, [](int, int) {});
   double loss = 0;
   for (Kind& kind : kinds_) {
     kind.foundFar = {};

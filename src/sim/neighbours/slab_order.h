@@ -1,64 +1,49 @@
 #pragma once
 // In which order slabs are worked on (slabs.h). What is done for a slab writes to it and the next one, so an odd slab waits for its even
-// neighbours: whatever the threads do, every grain gets what its even slab adds first. A thread takes blocks of slabs, the same in every
+// neighbours: whatever the threads do, every grain gets what its even slab adds first. A thread goes along neighbours, the same in every
 // step, and does an odd slab as soon as it may, while its neighbours lie in the cache.
 
-#include <algorithm>
 #include <atomic>
-#include <numeric>
 #include <vector>
 
 #include "core/thread_team.h"
 
 namespace tsubu::sim {
 
-/// Few, so that what a block works on stays with its thread; enough that no thread waits long for another.
-inline constexpr int blocksPerThread = 4;
+/// What threads do, and in which order.
+struct SlabOrder {
+  int slabs = 0;
+  /// Slabs to be evaluated: all even ones, and each odd one that lies between two threads. The others are evaluated as soon as they may.
+  std::vector<int> tasks;
+  std::vector<int> begin;  ///< where the tasks of each thread begin, and their number
+};
 
-/// \brief Shares slabs out in blocks of about the same work: where each begins, at an even slab, and the number of slabs at the end.
+/// \brief Gives each thread about the same work. It begins at the ends of what it is given: the slab between two threads may then be
+/// evaluated early, and is left for the end, for whichever of the two is done first.
 /// \param work  of each slab, in any unit
-inline std::vector<int> shareSlabs(const std::vector<double>& work, int threads) {
-  const int count = static_cast<int>(work.size()), blocks = std::min(blocksPerThread * threads, (count + 1) / 2);
-  const double each = std::accumulate(work.begin(), work.end(), 0.0) / std::max(blocks, 1);
-  std::vector<int> begin;
-  double done = 0;
-  for (int slab = 0; slab < count; ++slab) {
-    const auto begun = static_cast<int>(begin.size());
-    if (slab % 2 == 0 && begun < blocks && done >= each * begun) begin.push_back(slab);
-    done += work[static_cast<std::size_t>(slab)];
-  }
-  begin.push_back(count);
-  return begin;
-}
+SlabOrder orderSlabs(const std::vector<double>& work, int threads);
 
-/// \brief Calls evaluate(slab, thread) once for each slab of the blocks (`begin`: see shareSlabs), an odd one after both its neighbours,
-/// and complete(slab, thread) once for each as soon as nothing will be added to it any more and nobody will read it: it and the slab before
-/// have been evaluated.
+/// \brief Calls evaluate(slab, thread) once for each slab, an odd one after both its neighbours, and complete(slab, thread) once for each
+/// as soon as nothing will be added to it any more and nobody will read it: it and the slab before have been evaluated.
 template <class Evaluate, class Complete>
-void overSlabs(const std::vector<int>& begin, ThreadTeam& team, const Evaluate& evaluate, const Complete& complete) {
-  const int count = begin.back(), blocks = static_cast<int>(begin.size()) - 1;
-  const auto firstOf = [&](int block) { return begin[static_cast<std::size_t>(block)]; };
-  const auto finish = [&](int odd, int thread) {
+void overSlabs(const SlabOrder& order, ThreadTeam& team, const Evaluate& evaluate, const Complete& complete) {
+  // What an odd slab waits for: its neighbours, and its turn. Whoever comes last does it.
+  std::vector<std::atomic<int>> awaited(static_cast<std::size_t>(order.slabs));
+  for (int odd = 1; odd < order.slabs; odd += 2) awaited[static_cast<std::size_t>(odd)] = odd + 1 < order.slabs ? 2 : 1;
+  for (const int task : order.tasks) ++awaited[static_cast<std::size_t>(task)];
+  const auto arriveAt = [&](int odd, int thread) {
+    if (odd < 0 || odd >= order.slabs || --awaited[static_cast<std::size_t>(odd)] > 0) return;
     evaluate(odd, thread);
-    for (int slab = odd; slab < std::min(odd + 2, count); ++slab) complete(slab, thread);
+    complete(odd, thread);
+    if (odd + 1 < order.slabs) complete(odd + 1, thread);
   };
-  // The odd slab at the end of a block waits for the first slab of the next one: whoever comes last does it.
-  std::vector<std::atomic<int>> arrived(static_cast<std::size_t>(blocks));
-  const auto arriveAtEndOf = [&](int block, int thread) {
-    if (arrived[static_cast<std::size_t>(block)].fetch_add(1) == 1) finish(firstOf(block + 1) - 1, thread);
-  };
-  team.run(blocks, [&](int block, int thread) {
-    const int first = firstOf(block), end = firstOf(block + 1);
-    for (int even = first; even < end; even += 2) {
-      evaluate(even, thread);
-      if (even > first) finish(even - 1, thread);
-      if (even == first && block > 0) arriveAtEndOf(block - 1, thread);
-    }
-    if (block == 0 && count > 0) complete(0, thread);
-    if (end < count)
-      arriveAtEndOf(block, thread);
-    else if (end % 2 == 0)
-      finish(end - 1, thread);
+  team.run(order.begin, [&](int task, int thread) {
+    const int slab = order.tasks[static_cast<std::size_t>(task)];
+    if (slab % 2 == 1) return arriveAt(slab, thread);
+    evaluate(slab, thread);
+    if (slab == 0) complete(slab, thread);
+    arriveAt(slab - 1, thread);
+    arriveAt(slab + 1, thread);
   });
 }
 
