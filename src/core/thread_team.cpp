@@ -1,5 +1,6 @@
 #include "core/thread_team.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace tsubu {
@@ -9,6 +10,8 @@ namespace {
 // sleeping, the longer part of it in such a way that threads that draw and write pictures get the core. A thread that sleeps often is
 // soon woken on the core of the one that wakes it, and the two share that from then on, with the other core idle.
 constexpr int looksBeforeYield = 2000, looksBeforeSleep = 12000;
+// Entries that take longer to go through than another thread takes to begin.
+constexpr std::size_t leastPart = 1000;
 
 inline void waitALittle(int looks) {
   if (looks >= looksBeforeYield) {
@@ -39,6 +42,14 @@ void ThreadTeam::run(int tasks, const std::function<void(int, int)>& task) {
 void ThreadTeam::run(const std::vector<int>& begin, const std::function<void(int, int)>& task) {
   run(
       begin.back(), [&](int thread) { return begin.at(static_cast<std::size_t>(thread)); }, task);
+}
+
+void ThreadTeam::runParts(std::size_t size, const std::function<void(std::size_t, std::size_t)>& task) {
+  const std::size_t parts = std::clamp<std::size_t>(size / leastPart, 1, static_cast<std::size_t>(used_));
+  run(static_cast<int>(parts), [&](int k, int) {
+    const auto part = static_cast<std::size_t>(k);
+    task(size * part / parts, size * (part + 1) / parts);
+  });
 }
 
 template <class First>

@@ -34,6 +34,9 @@ class ThreadTeam {
   /// The same with given shares: thread k begins with the tasks from begin[k] on; begin[used()] is their number.
   void run(const std::vector<int>& begin, const std::function<void(int, int)>& task);
 
+  /// Calls task(first, last) for parts of [0, size) that make it up, one for each thread, or a single one where there is little to do.
+  void runParts(std::size_t size, const std::function<void(std::size_t, std::size_t)>& task);
+
  private:
   /// `first`: of the tasks of a thread.
   template <class First>

@@ -95,19 +95,40 @@ void Simulation::Impl::countCrossings() {
   for (std::size_t g = 0; g < state.size() && !model.counters.empty(); ++g) countCrossing(g);
 }
 
-template <class Visit>
-void Simulation::Impl::visitThoseThatMoved(Visit&& visit) {
-  if (rebuildNeeded)
-    for (std::size_t g = 0; g < state.size(); ++g) visit(g);
-  else
-    for (const int slab : due)
-      for (std::int32_t g = slabs.begin(slab); g < slabs.end(slab); ++g) visit(static_cast<std::size_t>(g));
+// Few do, of all that are looked at.
+bool Simulation::Impl::goesOrCrosses(std::size_t grain) const {
+  const Vec3 x = positionOf(state.rows[grain]);
+  if (!model.counters.empty() && sidesOf(x) != state.sides[grain]) return true;
+  const Vec3 inside = periods.wrapped(x);
+  return !model.domain.contains(inside) ||
+         std::any_of(model.sinks.begin(), model.sinks.end(), [&](const Sink& sink) { return sink.region.contains(inside); });
+}
+
+std::vector<std::size_t> Simulation::Impl::thoseWhoGoOrCross() {
+  std::vector<std::vector<std::size_t>> found;
+  const auto look = [&](std::size_t part, std::size_t first, std::size_t end) {
+    for (std::size_t g = first; g < end; ++g)
+      if (goesOrCrosses(g)) found[part].push_back(g);
+  };
+  if (rebuildNeeded) {
+    found.resize(1);
+    look(0, 0, state.size());
+  } else {
+    found.resize(due.size());
+    team.run(static_cast<int>(due.size()), [&](int k, int) {
+      const auto part = static_cast<std::size_t>(k);
+      look(part, static_cast<std::size_t>(slabs.begin(due[part])), static_cast<std::size_t>(slabs.end(due[part])));
+    });
+  }
+  std::vector<std::size_t> all;
+  for (const std::vector<std::size_t>& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 void Simulation::Impl::changePopulation() {
   bool anyTunnelled = false;
   for (const SlabWalls& slab : walls.slabs()) anyTunnelled = anyTunnelled || !slab.tunnelled.empty();
-  if (anyTunnelled || rebuildNeeded || !due.empty()) leave();
+  if (anyTunnelled || rebuildNeeded || !due.empty()) leave(anyTunnelled);
   if (!model.streams.empty() && steps % stepsBetweenArrivals == 0) arrive();
 }
 
@@ -120,7 +141,9 @@ void Simulation::Impl::lose(std::size_t grain, const std::string& why, std::vect
   if (counts.lost == 11) warnings.push_back("More grains are lost; run.json lists them.");
 }
 
-void Simulation::Impl::leave() {
+void Simulation::Impl::leave(bool anyTunnelled) {
+  const std::vector<std::size_t> there = thoseWhoGoOrCross();
+  if (there.empty() && !anyTunnelled) return;
   std::vector<char> goes(state.size(), 0);
   bool any = false;
   for (SlabWalls& slab : walls.slabs()) {
@@ -128,7 +151,7 @@ void Simulation::Impl::leave() {
     any = any || !slab.tunnelled.empty();
     slab.tunnelled.clear();
   }
-  visitThoseThatMoved([&](std::size_t g) {
+  for (const std::size_t g : there) {
     if (!model.counters.empty()) countCrossing(g);
     const Vec3 x = periods.wrapped(positionOf(state.rows[g]));
     if (!model.domain.contains(x)) lose(g, "left the domain", goes);
@@ -138,7 +161,7 @@ void Simulation::Impl::leave() {
       ++counts.removed;
     }
     any = any || goes[g];
-  });
+  }
   if (any) removeGrains(goes);
 }
 

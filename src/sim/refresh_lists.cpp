@@ -75,7 +75,7 @@ void Simulation::Impl::giveSkins() {
   for (int axis = 0; axis < 3; ++axis)
     if (periods.along(axis)) rule.most = std::min(rule.most, 0.25 * periods.length(axis) - largest);
   rule.least = std::min(rule.least, rule.most);
-  state.skin = chooseSkins(state.rows, rule);
+  state.skin = chooseSkins(state.rows, rule, team);
   largestSkin = state.skin.empty() ? 0.0 : static_cast<double>(*std::max_element(state.skin.begin(), state.skin.end()));
   innerShare =
       std::min({std::max(usualInnerShare, leastInner * smallest / rule.least), mostInnerShare, mostInner * smallest / largestSkin});
@@ -116,7 +116,7 @@ void Simulation::Impl::rebuildLists() {
   std::vector<std::int32_t> order;
   double reach = 0;
   for (std::size_t g = 0; g < state.size(); ++g) reach = std::max(reach, 2 * (state.rows[g].radius + state.skin[g]));
-  slabs = sortIntoSlabs(state.rows, reach, order);
+  slabs = sortIntoSlabs(state.rows, reach, order, team);
   std::vector<std::int32_t> newPlace(order.size());
   for (std::size_t g = 0; g < order.size(); ++g) newPlace[static_cast<std::size_t>(order[g])] = static_cast<std::int32_t>(g);
   state.reorder(order);
@@ -137,11 +137,13 @@ void Simulation::Impl::rebuildLists() {
   walls.build(state, slabs, wallSkin, steps > 0 && !model.continuous ? model.timeStep : 0.0, newPlace, team);
   state.reference.resize(state.size());
   state.perSkin2.resize(state.size());
-  for (std::size_t g = 0; g < state.size(); ++g) {
-    state.reference[g] = {state.rows[g].x, state.rows[g].y, state.rows[g].z};
-    const double skin = state.skin[g];
-    state.perSkin2[g] = static_cast<float>(roundedUp / (skin * skin));
-  }
+  team.runParts(state.size(), [&](std::size_t from, std::size_t to) {
+    for (std::size_t g = from; g < to; ++g) {
+      state.reference[g] = positionOf(state.rows[g]);
+      const double skin = state.skin[g];
+      state.perSkin2[g] = static_cast<float>(roundedUp / (skin * skin));
+    }
+  });
   state.wrap.clear();
   for (const auto& pass : passes) pass->regroup(world(time(), model.timeStep), newPlace);
   wallTravel = 0;

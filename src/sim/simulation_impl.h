@@ -178,10 +178,12 @@ class Simulation::Impl {
 
   void arrive();
   void bookArrivals();
-  void leave();
-  /// Calls visit(grain) for grains of lists that are due, or for all when all lists are.
-  template <class Visit>
-  void visitThoseThatMoved(Visit&& visit);
+  /// `anyTunnelled`: a slab of walls says so.
+  void leave(bool anyTunnelled);
+  /// Has it come to a sink, out of the domain or across a counter?
+  bool goesOrCrosses(std::size_t grain) const;
+  /// Those of the grains of lists that are due, or of all when all lists are; in the order of their places, by list.
+  std::vector<std::size_t> thoseWhoGoOrCross();
   void lose(std::size_t grain, const std::string& why, std::vector<char>& goes);
   void removeGrains(const std::vector<char>& goes);
   std::uint32_t sidesOf(const Vec3& position) const;

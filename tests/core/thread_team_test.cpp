@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 #include <string>
@@ -34,6 +35,20 @@ TEST_P(ThreadTeamOf, TakesEveryTaskOfGivenShares) {
   std::vector<int> taken(static_cast<std::size_t>(begin.back()), 0);
   team.run(begin, [&](int task, int) { ++taken[static_cast<std::size_t>(task)]; });
   EXPECT_EQ(taken, std::vector<int>(taken.size(), 1));
+}
+
+TEST_P(ThreadTeamOf, PartsMakeUpTheWhole) {
+  ThreadTeam team(GetParam());
+  for (const std::size_t size : {0, 1, 999, 2500, 100'001}) {
+    std::vector<int> taken(size, 0);
+    std::atomic<int> parts = 0;
+    team.runParts(size, [&](std::size_t first, std::size_t last) {
+      ++parts;
+      for (std::size_t k = first; k < last; ++k) ++taken[k];
+    });
+    EXPECT_EQ(taken, std::vector<int>(size, 1));
+    EXPECT_EQ(parts, size > 100'000 ? team.threads() : std::min(team.threads(), size > 2000 ? 2 : 1));
+  }
 }
 
 // What one run wrote, the next one reads, without a lock: run() returns only when all is done and visible. Under the thread

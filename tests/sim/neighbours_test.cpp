@@ -78,6 +78,7 @@ TEST(CellGrid, FindsAllThatBruteForceFinds) {
 
 // Grains of one size that lie in the order of slabs have their partners in this order too: what makes searching for them and sorting cheap.
 TEST(CellGrid, PartnersOfEqualGrainsComeInOrder) {
+  ThreadTeam team(2);
   Random random(21, 3);
   for (const double skin : {0.0, 2e-4}) {
     State state;
@@ -85,7 +86,7 @@ TEST(CellGrid, PartnersOfEqualGrainsComeInOrder) {
       state.rows.push_back({random.uniform(0, 0.03), random.uniform(0, 0.011), random.uniform(0, 0.05), 1e-3, 0, 0, 0, 1, 0, 0, 0, 1e3});
     state.skin.assign(state.rows.size(), static_cast<float>(skin));
     std::vector<std::int32_t> order, found;
-    sortIntoSlabs(state.rows, 2 * (1e-3 + static_cast<double>(state.skin[0])), order);
+    sortIntoSlabs(state.rows, 2 * (1e-3 + static_cast<double>(state.skin[0])), order, team);
     state.reorder(order);
     CellGrid grid;
     grid.build(state.rows, 0, state.skin);
@@ -120,7 +121,7 @@ TEST(PairLists, MemoryFollowsGrainsInTheirNewOrder) {
         state.skin.push_back(2e-4F);
         state.id.push_back(state.nextId++);
       }
-      Slabs slabs = sortIntoSlabs(state.rows, 2 * (1e-3 + 2.1e-4), order);
+      Slabs slabs = sortIntoSlabs(state.rows, 2 * (1e-3 + 2.1e-4), order, team);
       state.reorder(order);
       return slabs;
     };
@@ -194,7 +195,7 @@ TEST(PairLists, HoldEveryNearPairOnceInOrder) {
     for (std::size_t g = 0; g < state.rows.size(); ++g)
       state.skin.push_back(static_cast<float>(thickest * std::pow(random.uniform(0.01, 1), 3)));
     std::vector<std::int32_t> order;
-    const Slabs slabs = sortIntoSlabs(state.rows, 2 * (1e-3 + thickest), order);
+    const Slabs slabs = sortIntoSlabs(state.rows, 2 * (1e-3 + thickest), order, team);
     state.reorder(order);
     const std::vector<GrainRow>& sorted = state.rows;
     std::vector<std::int32_t> place(order.size());
@@ -275,15 +276,16 @@ TEST(Lists, NeverMissAContactWhileGrainsMove) {
 GrainRow rowAt(double x, double speed) { return {x, 0, 0, 1e-3, 0, 0, -speed, 1, 0, 0, 0, 1e3}; }
 
 TEST(Skins, FollowTheFastestGrainNearby) {
+  ThreadTeam team(2);
   const SkinRule rule{1e-3, 1e-4, 9e-4};
   // Beside a grain of 0.5 m/s one at rest may soon go as fast; far away none may.
-  const std::vector<float> skins = chooseSkins({rowAt(0, 0), rowAt(2e-3, 0.5), rowAt(0.1, 0), rowAt(0.2, 7), rowAt(0.3, 0.2)}, rule);
+  const std::vector<float> skins = chooseSkins({rowAt(0, 0), rowAt(2e-3, 0.5), rowAt(0.1, 0), rowAt(0.2, 7), rowAt(0.3, 0.2)}, rule, team);
   EXPECT_FLOAT_EQ(skins[0], 5e-4F);
   EXPECT_FLOAT_EQ(skins[1], 5e-4F);
   EXPECT_FLOAT_EQ(skins[2], 1e-4F);
   EXPECT_FLOAT_EQ(skins[3], 9e-4F);
   EXPECT_FLOAT_EQ(skins[4], 2e-4F);
-  EXPECT_TRUE(chooseSkins({}, rule).empty());
+  EXPECT_TRUE(chooseSkins({}, rule, team).empty());
 }
 
 TEST(Drift, EndsTheListsThatReadASlabAndNoOthers) {

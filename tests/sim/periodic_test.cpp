@@ -79,7 +79,7 @@ TEST(PeriodicLists, HoldEveryNearPairOnceWithItsNearestImage) {
     state.forces.resize(state.rows.size());
     for (std::size_t g = 0; g < state.rows.size(); ++g) state.skin.push_back(static_cast<float>(thickest * random.uniform(0.1, 1)));
     std::vector<std::int32_t> order, place(state.rows.size());
-    const Slabs slabs = sortIntoSlabs(state.rows, 2 * (1e-3 + thickest), order);
+    const Slabs slabs = sortIntoSlabs(state.rows, 2 * (1e-3 + thickest), order, team);
     state.reorder(order);
     const std::size_t grains = state.size();
     CellGrid grid;

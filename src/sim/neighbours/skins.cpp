@@ -18,7 +18,7 @@ constexpr double mostCellsPerGrain = 2, leastCells = 4096;
 /// The largest squared speed in each cell of a box around the grains and in the cells next to it.
 class SpeedMap {
  public:
-  explicit SpeedMap(const std::vector<GrainRow>& rows) {
+  SpeedMap(const std::vector<GrainRow>& rows, ThreadTeam& team) {
     Box box;
     double largest = 0;
     for (const GrainRow& row : rows) {
@@ -33,11 +33,13 @@ class SpeedMap {
     while (cells(0) * cells(1) * cells(2) > most) edge_ *= 1.25;
     for (int axis = 0; axis < 3; ++axis) count_[static_cast<std::size_t>(axis)] = static_cast<std::size_t>(cells(axis));
     fastest2_.assign(count_[0] * count_[1] * count_[2], 0.0);
-    cells_.reserve(rows.size());
-    for (const GrainRow& row : rows) {
-      const std::size_t cell = cellOf(row);
-      cells_.push_back(static_cast<std::uint32_t>(cell));
-      fastest2_[cell] = std::max(fastest2_[cell], norm2(row.velocity()));
+    cells_.resize(rows.size());
+    team.runParts(rows.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t g = first; g < last; ++g) cells_[g] = static_cast<std::uint32_t>(cellOf(rows[g]));
+    });
+    for (std::size_t g = 0; g < rows.size(); ++g) {
+      double& fastest2 = fastest2_[cells_[g]];
+      fastest2 = std::max(fastest2, norm2(rows[g].velocity()));
     }
     spread(1, count_[0]);
     spread(count_[0], count_[1]);
@@ -88,11 +90,13 @@ float roundedDown(double positive) {
 
 }  // namespace
 
-std::vector<float> chooseSkins(const std::vector<GrainRow>& rows, const SkinRule& rule) {
+std::vector<float> chooseSkins(const std::vector<GrainRow>& rows, const SkinRule& rule, ThreadTeam& team) {
   std::vector<float> skins(rows.size(), roundedDown(rule.least));
   if (rows.empty() || !(rule.most > rule.least)) return skins;
-  const SpeedMap speeds(rows);
-  for (std::size_t g = 0; g < rows.size(); ++g) skins[g] = roundedDown(std::clamp(rule.time * speeds.near(g), rule.least, rule.most));
+  const SpeedMap speeds(rows, team);
+  team.runParts(rows.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t g = first; g < last; ++g) skins[g] = roundedDown(std::clamp(rule.time * speeds.near(g), rule.least, rule.most));
+  });
   return skins;
 }
 

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "core/thread_team.h"
 #include "sim/grain_rows.h"
 
 namespace tsubu::sim {
@@ -15,6 +16,6 @@ struct SkinRule {
 };
 
 /// The skin of each grain, m.
-std::vector<float> chooseSkins(const std::vector<GrainRow>& rows, const SkinRule& rule);
+std::vector<float> chooseSkins(const std::vector<GrainRow>& rows, const SkinRule& rule, ThreadTeam& team);
 
 }  // namespace tsubu::sim

@@ -38,7 +38,7 @@ std::array<int, 3> axesByExtent(const Vec3& extent) {
   return {shortest, middle, longest};
 }
 
-Slabs sortIntoSlabs(const std::vector<GrainRow>& rows, double reach, std::vector<std::int32_t>& order) {
+Slabs sortIntoSlabs(const std::vector<GrainRow>& rows, double reach, std::vector<std::int32_t>& order, ThreadTeam& team) {
   Box box;
   for (const GrainRow& row : rows) box.extend(Vec3(row.x, row.y, row.z));
   Slabs slabs;
@@ -59,18 +59,23 @@ Slabs sortIntoSlabs(const std::vector<GrainRow>& rows, double reach, std::vector
 
   slabs.first.assign(static_cast<std::size_t>(count) + 1, 0);
   std::vector<Keyed> items(rows.size());
+  const std::uint64_t cellsInSlab = rowsOfCells * cellsInRow;
+  team.runParts(rows.size(), [&, last = last, across = across, along = along](std::size_t from, std::size_t to) {
+    for (std::size_t g = from; g < to; ++g) {
+      const Vec3 p = Vec3(rows[g].x, rows[g].y, rows[g].z) - box.min();
+      const auto slab = std::min<std::uint64_t>(static_cast<std::uint64_t>(p[along] / thickness), static_cast<std::uint64_t>(count - 1));
+      const auto u = static_cast<std::uint64_t>(p[across] / cell), v = static_cast<std::uint64_t>(p[last] / cell);
+      items[g] = {(slab * rowsOfCells + u) * cellsInRow + v, static_cast<std::int32_t>(g)};
+    }
+  });
   std::uint64_t largest = 0;
-  for (std::size_t g = 0; g < rows.size(); ++g) {
-    const Vec3 p = Vec3(rows[g].x, rows[g].y, rows[g].z) - box.min();
-    const auto slab = std::min<std::uint64_t>(static_cast<std::uint64_t>(p[along] / thickness), static_cast<std::uint64_t>(count - 1));
-    const auto u = static_cast<std::uint64_t>(p[across] / cell), v = static_cast<std::uint64_t>(p[last] / cell);
-    items[g] = {(slab * rowsOfCells + u) * cellsInRow + v, static_cast<std::int32_t>(g)};
-    largest = std::max(largest, items[g].key);
-    ++slabs.first[slab + 1];
-  }
+  for (const Keyed& item : items) largest = std::max(largest, item.key);
   radixSort(items, largest);
   for (std::size_t g = 0; g < items.size(); ++g) order[g] = items[g].place;
-  for (std::size_t s = 1; s < slabs.first.size(); ++s) slabs.first[s] += slabs.first[s - 1];
+  for (std::size_t s = 0; s < slabs.first.size(); ++s) {
+    const auto begins = [&](const Keyed& item, std::uint64_t key) { return item.key < key; };
+    slabs.first[s] = static_cast<std::int32_t>(std::lower_bound(items.begin(), items.end(), s * cellsInSlab, begins) - items.begin());
+  }
   return slabs;
 }
 

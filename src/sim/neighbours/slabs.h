@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/thread_team.h"
 #include "core/vec.h"
 #include "sim/grain_rows.h"
 
@@ -30,6 +31,6 @@ std::array<int, 3> axesByExtent(const Vec3& extent);
 /// \brief The order in which grains are to lie in memory: by slab, then by cells within the slab, then as they were.
 /// \param reach  m: the farthest distance of the centres of a listed pair
 /// \param order  filled: new place → old place
-Slabs sortIntoSlabs(const std::vector<GrainRow>& rows, double reach, std::vector<std::int32_t>& order);
+Slabs sortIntoSlabs(const std::vector<GrainRow>& rows, double reach, std::vector<std::int32_t>& order, ThreadTeam& team);
 
 }  // namespace tsubu::sim
