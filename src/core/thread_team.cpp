@@ -1,6 +1,7 @@
 #include "core/thread_team.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace tsubu {
@@ -40,8 +41,9 @@ void ThreadTeam::run(int tasks, const std::function<void(int, int)>& task) {
 }
 
 void ThreadTeam::run(const std::vector<int>& begin, const std::function<void(int, int)>& task) {
+  if (begin.size() != static_cast<std::size_t>(used_) + 1) throw std::logic_error("Shares of tasks for another number of threads.");
   run(
-      begin.back(), [&](int thread) { return begin.at(static_cast<std::size_t>(thread)); }, task);
+      begin.back(), [&](int thread) { return begin[static_cast<std::size_t>(thread)]; }, task);
 }
 
 void ThreadTeam::runParts(std::size_t size, const std::function<void(std::size_t, std::size_t)>& task) {

@@ -31,10 +31,11 @@ class ThreadTeam {
 
   /// Calls task(k, thread) for k in [0, tasks), thread in [0, threads()), and returns when all are done. Rethrows the first exception.
   void run(int tasks, const std::function<void(int, int)>& task);
-  /// The same with given shares: thread k begins with the tasks from begin[k] on; begin[used()] is their number.
+  /// The same with given shares: thread k begins with the tasks from begin[k] on; begin[used()], the last, is their number.
+  /// Throws std::logic_error where there are more shares or fewer.
   void run(const std::vector<int>& begin, const std::function<void(int, int)>& task);
 
-  /// Calls task(first, last) for parts of [0, size) that make it up, one for each thread, or a single one where there is little to do.
+  /// Calls task(first, last) for parts of [0, size) that make it up: one for each thread, or fewer where there is little to do.
   void runParts(std::size_t size, const std::function<void(std::size_t, std::size_t)>& task);
 
  private:

@@ -33,7 +33,7 @@ struct World {
   const Model& model;
   State& state;
   const Slabs& slabs;
-  const SlabOrder& order;
+  const SlabOrder& order;  ///< of the evaluation under way: for addForces
   PairLists& pairs;
   const Periods& periods;  ///< see `between`
   const WallPass& walls;
@@ -60,7 +60,7 @@ class ForcePass {
   /// the start).
   virtual void regroup(const World&, const std::vector<std::int32_t>& /*newPlace*/) {}
   /// Adds to the force rows. The result must not depend on the number of threads: a slab's task writes to the grains of that slab
-  /// alone, or tasks run in two colours as the pair pass does.
+  /// alone, or slabs are gone over in world.order (`overSlabs`), which keeps apart those that share grains.
   virtual void addForces(const World& world) = 0;
   /// May forces be evaluated several times in a step (I7)? Not where a pass remembers.
   virtual bool evaluatesAnew() const { return false; }

@@ -35,6 +35,8 @@ TEST_P(ThreadTeamOf, TakesEveryTaskOfGivenShares) {
   std::vector<int> taken(static_cast<std::size_t>(begin.back()), 0);
   team.run(begin, [&](int task, int) { ++taken[static_cast<std::size_t>(task)]; });
   EXPECT_EQ(taken, std::vector<int>(taken.size(), 1));
+  begin.push_back(begin.back());
+  EXPECT_THROW(team.run(begin, [](int, int) {}), std::logic_error);
 }
 
 TEST_P(ThreadTeamOf, PartsMakeUpTheWhole) {

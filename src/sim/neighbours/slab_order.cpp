@@ -12,7 +12,7 @@ SlabOrder orderSlabs(const std::vector<double>& work, int threads) {
   order.begin.push_back(0);
   const int evens = (order.slabs + 1) / 2;
   const double total = std::accumulate(work.begin(), work.end(), 0.0);
-  // A cut leaves the odd slab behind so many even ones to both sides.
+  // A cut comes after so many even slabs; half of the odd slab there counts for each side.
   int first = 0;
   double before = 0;  // work of the slabs before the next even one
   int last = 0;

@@ -19,12 +19,13 @@ struct SlabOrder {
 };
 
 /// \brief Gives each thread about the same work. It begins at the ends of what it is given: the slab between two threads may then be
-/// evaluated early, and is left for the end, for whichever of the two is done first.
+/// evaluated early, and is left for the end: of two threads, for the one that is done first.
 /// \param work  of each slab, in any unit
 SlabOrder orderSlabs(const std::vector<double>& work, int threads);
 
 /// \brief Calls evaluate(slab, thread) once for each slab, an odd one after both its neighbours, and complete(slab, thread) once for each
-/// as soon as nothing will be added to it any more and nobody will read it: it and the slab before have been evaluated.
+/// as soon as nothing will be added to it any more and nobody will read it (unless as the owner of an image): it and the slab before have
+/// been evaluated.
 template <class Evaluate, class Complete>
 void overSlabs(const SlabOrder& order, ThreadTeam& team, const Evaluate& evaluate, const Complete& complete) {
   // What an odd slab waits for: its neighbours, and its turn. Whoever comes last does it.

@@ -72,10 +72,10 @@ Slabs sortIntoSlabs(const std::vector<GrainRow>& rows, double reach, std::vector
   for (const Keyed& item : items) largest = std::max(largest, item.key);
   radixSort(items, largest);
   for (std::size_t g = 0; g < items.size(); ++g) order[g] = items[g].place;
-  for (std::size_t s = 0; s < slabs.first.size(); ++s) {
-    const auto begins = [&](const Keyed& item, std::uint64_t key) { return item.key < key; };
-    slabs.first[s] = static_cast<std::int32_t>(std::lower_bound(items.begin(), items.end(), s * cellsInSlab, begins) - items.begin());
-  }
+  const auto isBefore = [](const Keyed& item, std::uint64_t key) { return item.key < key; };
+  for (std::size_t s = 0; s < static_cast<std::size_t>(count); ++s)
+    slabs.first[s] = static_cast<std::int32_t>(std::lower_bound(items.begin(), items.end(), s * cellsInSlab, isBefore) - items.begin());
+  slabs.first.back() = static_cast<std::int32_t>(items.size());
   return slabs;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Grains sorted into slabs along the longest axis. A slab is at least as thick as the farthest contact reaches, so a contact joins
-// neighbours at most: slab k writes only to k and k + 1, and even and odd slabs in turn keep threads apart. The layout depends on the
-// grains alone and never on the number of threads.
+// neighbours at most: slab k writes only to k and k + 1, and an odd slab waits for its even neighbours (slab_order.h). The layout depends
+// on the grains alone and never on the number of threads.
 
 #include <algorithm>
 #include <array>
