@@ -11,15 +11,38 @@
 
 namespace tsubu::sim {
 
+inline constexpr int bondChunk = 64;
+
+/// What does not change of bonds. Where it is the same for all, as for grains of one size, its first chunk stands for every chunk and stays
+/// in the cache.
+template <class Number>
+class BodyColumn {
+ public:
+  void push_back(Number value) {
+    values_.push_back(value);
+    alike_ = alike_ && value == values_.front();
+  }
+  void resize(std::size_t count) { values_.resize(count); }
+  Number operator[](std::size_t k) const { return values_[k]; }
+  Number& operator[](std::size_t k) { return values_[k]; }
+  /// Of the chunk that begins with this bond.
+  const Number* chunk(std::size_t first) const { return values_.data() + (alike_ ? 0 : first); }
+
+ private:
+  LineVector<Number> values_;
+  bool alike_ = true;
+};
+
 /// Everything about bonds between grains that lies along the list. The ends are places of grains, the lower id first.
 struct BondColumns {
-  enum Name { shearX, shearY, shearZ, turnX, turnY, turnZ, rest, springAlong, springBend, radius, length, critical, bendCritical, columns };
+  enum Name { shearX, shearY, shearZ, turnX, turnY, turnZ, rest, columns };
 
   std::vector<std::int32_t> i, j;
   std::array<LineVector<double>, columns> column;
+  BodyColumn<double> radius, length;
+  BodyColumn<float> critical, bendCritical;  ///< single: more digits than anybody knows of a damping
 
   std::size_t size() const { return i.size(); }
-  double& at(Name name, std::size_t k) { return column[name][k]; }
   double at(Name name, std::size_t k) const { return column[name][k]; }
 
   void add(std::int32_t first, std::int32_t second, const BondBody& body, const BondMemory& memory);
@@ -31,8 +54,6 @@ struct BondColumns {
   BondBody body(std::size_t k) const;
   BondMemory memory(std::size_t k) const;
 };
-
-inline constexpr int bondChunk = 64;
 
 /// The bench of a chunk of bonds: see Stage. Three columns for a vector.
 struct alignas(64) BondStage {
@@ -49,6 +70,8 @@ struct alignas(64) BondStage {
   // On the way: see BondLength, BondPath, BondRotation.
   Column r, perR, perRadiusSum, perMiddle2;
   Column n[3], rotation[3], sheared[3], scale;
+
+  Column critical, bendCritical;  // which are kept as single numbers
 
   // Out: force on i, and the couples Q of both ends, moments included (T = −r Q).
   Column force[3], coupleI[3], coupleJ[3];

@@ -33,16 +33,21 @@ struct BondLimits {
   double stretch;                      ///< r_max over the length
 };
 
+inline constexpr double bondPi = 3.141592653589793;
+
 /// What all bonds of a kind have in common.
 struct BondKind {
-  double shearOverNormal;  ///< k_t/k_n
-  double eta[bondWays];    ///< B4: shares; B5: 1/s; B6: dashpots over critical ones, of BondBody
+  double stiffness, modulus;  ///< N/m³ and Pa, times π: k_n is the first, or the second over the length that the bond was made with
+  double shearOverNormal;     ///< k_t/k_n
+  double eta[bondWays];       ///< B4: shares; B5: 1/s; B6: dashpots over critical ones, of BondBody
   BondStrength strength;
   BondLimits limits;
 };
 
 inline BondKind kindOf(const Bonding& bonding) {
   BondKind kind{};
+  kind.stiffness = bonding.modulus > 0 ? 0 : bondPi * bonding.stiffness;
+  kind.modulus = bondPi * bonding.modulus;
   kind.shearOverNormal = 1 / bonding.stiffnessRatio;
   for (int way = 0; way < bondWays; ++way) kind.eta[way] = bonding.dampingOf[static_cast<std::size_t>(way)];
   if (bonding.damping == BondDamping::viscous) {
@@ -71,13 +76,10 @@ struct BondMemory {
 /// What does not change.
 struct BondBody {
   double radius;        ///< r_b, m
-  double along, bend;   ///< k_n A, N/m, and k_n I, N m
   double length;        ///< m, when it was made
   double critical;      ///< B6: critical dashpot along the bond, 2 √(k_n A m*), kg/s
   double bendCritical;  ///< B6: of bending, 2 √(k_n I I*), N m s
 };
-
-inline constexpr double bondPi = 3.141592653589793;
 
 /// How the two grains move against each other: i − j, and sums i + j of r ω.
 struct BondMotion {
@@ -110,8 +112,11 @@ TSUBU_INLINE BondStrain strainOf(const BondMemory& memory, V3 n, double r) {
 struct BondSprings {
   double along, across, twist, bend;
 };
-TSUBU_INLINE BondSprings springsOf(const BondBody& body, double shearOverNormal) {
-  return {body.along, shearOverNormal * body.along, 2 * shearOverNormal * body.bend, body.bend};
+/// B1, of a circular section: A = π r_b², I = A r_b²/4, J = 2 I.
+TSUBU_INLINE BondSprings springsOf(const BondKind& kind, const BondBody& body) {
+  const double radius2 = body.radius * body.radius, along = (kind.stiffness + kind.modulus / body.length) * radius2;
+  const double bend = 0.25 * radius2 * along, share = kind.shearOverNormal;
+  return {along, share * along, 2 * share * bend, bend};
 }
 
 /// The energy of the springs when both states are the same; otherwise between the two: ½ Σ k a b.
@@ -243,7 +248,7 @@ TSUBU_INLINE double stretchBond(const BondKind& kind, const BondBody& body, cons
                          BondRelaxation<damping>(kind, twisting, dt).after(before.twist, by.twist),
                          BondRelaxation<damping>(kind, bending, dt).after(before.bend, by.bend)};
     memory = {now.shear, now.bend + now.twist * path.n, now.stretch + r};
-    return relaxedIn(kind, springsOf(body, kind.shearOverNormal), before, now, dt);
+    return relaxedIn(kind, springsOf(kind, body), before, now, dt);
   } else {
     // The same with one rotation for what was there and what is added.
     const V3 turned = (0.5 * dt) * spin, shear = memory.shear + path.sheared, turn = memory.turn + turned;
@@ -302,7 +307,7 @@ TSUBU_INLINE BondWrench heldBack(const BondKind& kind, const BondBody& body, con
     return {(eta[along] - eta[across]) * body.critical * slip.along, (eta[across] * body.critical) * slip.velocity,
             (eta[twisting] - eta[bending]) * body.bendCritical * slip.twist, (eta[bending] * body.bendCritical) * slip.spin};
   } else {
-    const BondPull pull = pullOf(springsOf(body, kind.shearOverNormal), strain);
+    const BondPull pull = pullOf(springsOf(kind, body), strain);
     const V3 vt = slip.velocity - slip.along * n, wt = slip.spin - slip.twist * n;
     const double v2 = norm2(slip.velocity), w2 = norm2(slip.spin);
     return {eta[along] * forceOverSpeed(pull.along * pull.along, slip.along * slip.along, v2) * slip.along,
@@ -319,7 +324,7 @@ TSUBU_INLINE BondForce pullBond(const BondKind& kind, const BondBody& body, cons
                                 const BondMotion& now, double dt) {
   const V3 lever = (r * perRadiusSum) * n;
   const double twist = dot(memory.turn, n);
-  BondWrench wrench = wrenchOf(springsOf(body, kind.shearOverNormal), memory, twist, r);
+  BondWrench wrench = wrenchOf(springsOf(kind, body), memory, twist, r);
   BondForce result{};
   result.holds = true;
   if constexpr (breakable) result.holds = bondHolds(kind.limits, body, memory, twist, r);

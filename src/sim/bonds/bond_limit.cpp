@@ -20,7 +20,7 @@ struct Swing {
 Swing swingOf(const Bonding& bonding, const BondBody& body, double armI, double armJ, double inverseMass, double inverseMomentI,
               double inverseMomentJ) {
   const BondKind kind = kindOf(bonding);
-  const BondSprings springs = springsOf(body, kind.shearOverNormal);
+  const BondSprings springs = springsOf(kind, body);
   const double moments = inverseMomentI + inverseMomentJ;
   const double slipping = inverseMass + armI * armI * inverseMomentI + armJ * armJ * inverseMomentJ;
   double share = 1;

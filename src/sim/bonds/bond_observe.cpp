@@ -33,7 +33,7 @@ double storedIn(const World& world, const BondKind& constants, const BondColumns
   const Vec3 branch = world.between(a, b);
   const double r = branch.norm();
   const BondStrain strain = strainOf(bonds.memory(k), directionOf(branch, r), r);
-  return springProduct(springsOf(bonds.body(k), constants.shearOverNormal), strain, strain);
+  return springProduct(springsOf(constants, bonds.body(k)), strain, strain);
 }
 }  // namespace
 
@@ -69,7 +69,7 @@ void BondPass::addLinks(const World& world, std::vector<Link>& links) const {
     const BondBody body = bonds.body(k);
     const BondKind& c = kind.constants;
     const bool viscous = kind.bonding->damping == BondDamping::viscous, percent = kind.bonding->damping == BondDamping::percent;
-    const BondSprings springs = springsOf(body, c.shearOverNormal);
+    const BondSprings springs = springsOf(c, body);
     const auto spring = [&](BondWay way, double stiffness, double critical) {
       return Link::Spring{stiffness * (percent ? 1 + c.eta[way] : 1), viscous ? c.eta[way] * critical : 0};
     };
@@ -101,7 +101,7 @@ void BondPass::show(const World& world, Snapshot& snapshot) const {
     const Vec3 a = positionOf(first), b = a - world.between(first, second[static_cast<std::size_t>(bonds.j[k])]);
     const BondBody body = bonds.body(k);
     const double r = (a - b).norm();
-    const BondPull pull = pullOf(springsOf(body, kind.constants.shearOverNormal), strainOf(bonds.memory(k), directionOf(a - b, r), r));
+    const BondPull pull = pullOf(springsOf(kind.constants, body), strainOf(bonds.memory(k), directionOf(a - b, r), r));
     snapshot.bonds.push_back({a, b, body.radius, bondLoad(kind.constants.strength, body, pull, r), -1});
   });
   for (const Break& each : breaks_) snapshot.bonds.push_back({each.first, each.second, each.radius, 0, world.time - each.time});
@@ -116,6 +116,8 @@ std::uint64_t BondPass::hash(const State& state) const {
     hash.add(std::uint64_t{state.id[static_cast<std::size_t>(bonds.i[k])]});
     hash.add(wall ? ~std::uint64_t{0} : std::uint64_t{state.id[static_cast<std::size_t>(bonds.j[k])]});
     for (const auto& column : bonds.column) hash.add(column[k]);
+    const BondBody body = bonds.body(k);
+    for (const double number : {body.radius, body.length, body.critical, body.bendCritical}) hash.add(number);
     sum += hash.value();
   });
   for (const Scar& scar : scars_) {

@@ -231,7 +231,7 @@ void BondPass::letGo(const World& world, const Kind& kind, const BondColumns& bo
     const auto k = static_cast<std::size_t>(broken);
     const GrainRow& a = world.state.rows[static_cast<std::size_t>(bonds.i[k])];
     const GrainRow& b = second[static_cast<std::size_t>(bonds.j[k])];
-    if (shown_) breaks_.push_back({positionOf(a), positionOf(a) - world.between(a, b), bonds.at(BondColumns::radius, k), world.time});
+    if (shown_) breaks_.push_back({positionOf(a), positionOf(a) - world.between(a, b), bonds.radius[k], world.time});
     if (&second != &world.state.rows) continue;
     const double sum = a.radius + b.radius, touched = touchOf(kind, bonds.at(BondColumns::rest, k), sum);
     const double touch = std::max(touched, std::min(world.between(a, b).norm(), sum));

@@ -85,12 +85,10 @@ BondInertia inertiaOf(const GrainRow& a, const GrainRow& b) {
 BondBody bodyOf(const Bonding& bonding, double smaller, double length, const BondInertia& inertia) {
   BondBody body{};
   body.radius = bonding.radius * smaller;
-  const double radius2 = body.radius * body.radius, stiffness = bonding.modulus > 0 ? bonding.modulus / length : bonding.stiffness;
-  body.along = stiffness * bondPi * radius2;
-  body.bend = 0.25 * body.along * radius2;
   body.length = length;
-  body.critical = 2 * std::sqrt(body.along / inertia.inverseMass);
-  body.bendCritical = 2 * std::sqrt(body.bend / inertia.inverseMoment);
+  const BondSprings springs = springsOf(kindOf(bonding), body);
+  body.critical = 2 * std::sqrt(springs.along / inertia.inverseMass);
+  body.bendCritical = 2 * std::sqrt(springs.bend / inertia.inverseMoment);
   return body;
 }
 

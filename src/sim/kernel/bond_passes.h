@@ -95,8 +95,14 @@ TSUBU_INLINE BondRotation rotationAt(const BondStage& s, int q) { return {at(s.r
 /// A chunk of the columns of bonds.
 struct BondChunk {
   double* column[BondColumns::columns];
+  const double *radius, *length;
+  const float *critical, *bendCritical;
 
-  BondChunk(BondColumns& bonds, std::size_t first) {
+  BondChunk(BondColumns& bonds, std::size_t first)
+      : radius(bonds.radius.chunk(first)),
+        length(bonds.length.chunk(first)),
+        critical(bonds.critical.chunk(first)),
+        bendCritical(bonds.bendCritical.chunk(first)) {
     for (std::size_t c = 0; c < BondColumns::columns; ++c) column[c] = bonds.column[c].data() + first;
   }
   TSUBU_INLINE BondMemory memory(int q) const {
@@ -131,12 +137,12 @@ void stretchBonds(const BondKind& given, const BondChunk& bonds, int count, doub
   double* const* const shear = bonds.column + BondColumns::shearX;
   double* const* const turn = bonds.column + BondColumns::turnX;
   double* const rest = bonds.column[BondColumns::rest];
-  const double* const springAlong = bonds.column[BondColumns::springAlong];
-  const double* const springBend = bonds.column[BondColumns::springBend];
+  const double* const radius = bonds.radius;
+  const double* const length = bonds.length;
   TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) {
     BondMemory memory{at(shear, q), at(turn, q), relaxes ? rest[q] : 0};
-    const BondBody body{0, relaxes ? springAlong[q] : 0, relaxes ? springBend[q] : 0, 0, 0, 0};
+    const BondBody body{relaxes ? radius[q] : 0, relaxes ? length[q] : 0, 0, 0};
     const double r0 = relaxes ? lengthBefore(at(s.d, q), at(s.half.velocity, q), dt) : 0;
     const double relaxed = stretchBond<damping>(kind, body, pathAt(s, q), rotationAt(s, q), spinAt(s.half, q), r0, s.r[q], dt, memory);
     put(shear, q, memory.shear);
@@ -146,22 +152,24 @@ void stretchBonds(const BondKind& given, const BondChunk& bonds, int count, doub
   }
 }
 
+/// Apart from the law: GCC would take sixteen bonds at a time where it sees single numbers, and run out of registers.
+inline void widen(const float* from, int count, BondStage::Column& to) {
+  TSUBU_INDEPENDENT
+  for (int q = 0; q < count; ++q) to[q] = from[q];
+}
+
 template <BondDamping damping, bool breakable, bool accounts>
 void pullBonds(const BondKind& given, const BondChunk& bonds, int count, double dt, const BondStage::Motion& instant, BondStage& s) {
-  using Name = BondColumns;
+  constexpr bool viscous = damping == BondDamping::viscous;
   const BondKind kind = given;
-  const auto& c = bonds.column;
+  const double* const radius = bonds.radius;
+  const double* const firstLength = bonds.length;
   TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) {
     const BondMemory memory = bonds.memory(q);
     // What does not relax still has its first length as the length at rest: a column less to read.
-    const double length = damping == BondDamping::exponential ? c[Name::length][q] : memory.rest;
-    const BondBody body{breakable ? c[Name::radius][q] : 0,
-                        c[Name::springAlong][q],
-                        c[Name::springBend][q],
-                        length,
-                        dampsMotion<damping> ? c[Name::critical][q] : 0,
-                        dampsMotion<damping> ? c[Name::bendCritical][q] : 0};
+    const double length = damping == BondDamping::exponential ? firstLength[q] : memory.rest;
+    const BondBody body{radius[q], length, viscous ? s.critical[q] : 0, viscous ? s.bendCritical[q] : 0};
     const BondForce f = pullBond<damping, breakable>(kind, body, memory, at(s.n, q), s.r[q], s.perRadiusSum[q],
                                                      dampsMotion<damping> ? at(instant, q) : BondMotion{}, dt);
     const bool holds = !breakable || f.holds;
@@ -219,7 +227,7 @@ double heldBy(const BondKind& kind, const BondBody& body, const BondMemory& memo
   const BondStrain now = strainOf(memory, at(s.n, q), s.r[q]);
   const double r0 = lengthBefore(at(s.d, q), at(s.half.velocity, q), dt);
   const BondStrain by = strainBy(pathAt(s, q), rotationAt(s, q), spinAt(s.half, q), r0, s.r[q], dt);
-  return springProduct(springsOf(body, kind.shearOverNormal), strainBefore<damping>(kind, now, by, dt), now);
+  return springProduct(springsOf(kind, body), strainBefore<damping>(kind, now, by, dt), now);
 }
 
 /// Names the bonds of a chunk that break.
@@ -238,14 +246,9 @@ void noteBroken(const BondKind& kind, const BondColumns& bonds, std::size_t from
 }
 
 /// Asks for the columns of a chunk ahead of time: they are too many streams for the processor to see.
-template <BondDamping damping, bool breakable>
 TSUBU_INLINE void askFor(const BondChunk& bonds) {
-  for (int c = 0; c < BondColumns::columns; ++c) {
-    if (c == BondColumns::radius && !breakable) continue;
-    if (c == BondColumns::length && damping != BondDamping::exponential) continue;
-    if ((c == BondColumns::critical || c == BondColumns::bendCritical) && !dampsMotion<damping>) continue;
-    for (int q = 0; q < bondChunk; q += 8) __builtin_prefetch(bonds.column[c] + q, 1, 3);
-  }
+  for (const double* const column : bonds.column)
+    for (int q = 0; q < bondChunk; q += 8) __builtin_prefetch(column + q, 1, 3);
 }
 
 template <BondDamping damping, bool breakable, bool accounts>
@@ -257,10 +260,14 @@ void passBonds(const BondKind& kind, BondColumns& bonds, const BondRows& first, 
     const std::int32_t* const is = bonds.i.data() + from;
     const std::int32_t* const js = bonds.j.data() + from;
     const BondChunk chunk(bonds, from);
-    if (from + 2 * bondChunk <= size) askFor<damping, breakable>({bonds, from + bondChunk});
+    if (from + 2 * bondChunk <= size) askFor({bonds, from + bondChunk});
     gatherBonds<dampsMotion<damping>>(first, second, is, js, count, stage);
     findPaths(count, dt, stage);
     stretchBonds<damping, accounts>(kind, chunk, count, dt, stage);
+    if constexpr (damping == BondDamping::viscous) {
+      widen(chunk.critical, count, stage.critical);
+      widen(chunk.bendCritical, count, stage.bendCritical);
+    }
     pullBonds<damping, breakable, accounts>(kind, chunk, count, dt, first.half ? stage.now : stage.half, stage);
     if constexpr (dampsMotion<damping> && accounts) addToLanes(stage.loss, count, found.loss);
     if constexpr (damping == BondDamping::exponential && accounts) addToLanes(stage.relaxed, count, found.relaxed);

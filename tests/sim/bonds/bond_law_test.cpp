@@ -67,7 +67,7 @@ struct Led {
   double inertia() const { return bondPi * std::pow(body.radius, 4) / 4; }
   double stored() const {
     const BondStrain strain = strainOf(memory, v3(d.normalized()), d.norm());
-    return springProduct(springsOf(body, 1 / bonding.stiffnessRatio), strain, strain);
+    return springProduct(springsOf(kindOf(bonding), body), strain, strain);
   }
 };
 
@@ -328,7 +328,7 @@ TEST(BondLaw, LoadIsTheWorstStressOverItsStrength) {
       bonding.radius = 1;
       const BondBody body = bodyOf(bonding, r, 2e-3, unitInertia);
       const BondKind kind = kindOf(bonding);
-      const BondSprings k = springsOf(body, kind.shearOverNormal);
+      const BondSprings k = springsOf(kind, body);
       const auto same = [&](double scale, double length) {
         const BondPull p = pull(scale);
         const double twist = -p.twist / k.twist;
@@ -340,7 +340,7 @@ TEST(BondLaw, LoadIsTheWorstStressOverItsStrength) {
         same(scale, scale * body.length);
       }
     }
-    return bondLoad(strength, {r, 0, 0, 2e-3, 0, 0}, pull(1), 1.25 * 2e-3);
+    return bondLoad(strength, {r, 2e-3, 0, 0}, pull(1), 1.25 * 2e-3);
   };
   const double never = BondStrength::never, bent = bend * r / inertia, axial = force / area;
   EXPECT_NEAR(load({2e6, never, never, 0, never}, -force, 0, 0, bend), (axial + bent) / 2e6, 1e-12);
