@@ -67,10 +67,8 @@ struct alignas(64) BondStage {
   Column d[3], radiusSum;
   Motion half, now;  // `now` only when something is damped and the rows do not have the velocities of the half step
 
-  // On the way: see BondLength, BondPath, BondRotation.
-  Column r, perR, perRadiusSum, perMiddle2;
-  Column n[3], rotation[3], sheared[3], scale;
-
+  // On the way: see BondPath.
+  Column r, perRadiusSum, n[3], sheared[3], turned[3], rotation[3], scale;
   Column critical, bendCritical;  // which are kept as single numbers
 
   // Out: force on i, and the couples Q of both ends, moments included (T = −r Q).

@@ -161,40 +161,38 @@ TSUBU_INLINE bool bondHolds(const BondLimits& limits, const BondBody& body, cons
   return larger(over, r - limits.stretch * body.length) < 0;
 }
 
-/// The length of a bond, and reciprocals: of it, of the sum of the radii, and of its square half a step ago.
-struct BondLength {
-  double r, perR, perRadiusSum, perMiddle2;
-};
-/// \param d         x_i − x_j now
-/// \param velocity  with which it has come there
-TSUBU_INLINE BondLength lengthOf(V3 d, double radiusSum, V3 velocity, double dt) {
-  const double r = norm(d), middle2 = norm2(d - (0.5 * dt) * velocity), rSum = r * radiusSum;
-  // One division for three reciprocals: divisions are what the loop waits for.
-  const double all = 1 / (middle2 * rSum), perBoth = all * middle2;
-  return {r, perBoth * radiusSum, perBoth * r, all * rSum};
-}
 TSUBU_INLINE double lengthBefore(V3 d, V3 velocity, double dt) { return norm(d - dt * velocity); }
-
-/// How a step has moved a bond.
-struct BondPath {
-  V3 n;         ///< now
-  V3 rotation;  ///< g of the BondRotation since the step before
-  V3 sheared;   ///< half of what the springs across are stretched further, at either end of it
-};
-/// B3, half-way: the bond follows its ends and turns about itself with the mean spin of the grains.
-TSUBU_INLINE BondPath pathOf(V3 d, const BondLength& length, V3 velocity, V3 spinSum, double dt) {
-  const V3 way = (0.5 * dt) * velocity, middle = d - way, spin = (0.5 * dt * length.perRadiusSum) * spinSum;
-  // Of the mean spin, middle × sheared takes away what is across the bond and puts there how the bond itself turns.
-  const V3 sheared = way + cross(middle, spin);
-  return {length.perR * d, spin + length.perMiddle2 * cross(middle, sheared), sheared};
-}
 
 /// A rotation about g by twice the arc tangent of |g|. Cayley's form is orthogonal at any angle, without sine or cosine.
 struct BondRotation {
   V3 g;
   double scale;  ///< 2/(1 + g²)
 };
-TSUBU_INLINE double scaleOf(V3 g) { return 2 / (1 + norm2(g)); }
+/// How a step has moved a bond.
+struct BondPath {
+  double r;               ///< m, now
+  double perRadiusSum;    ///< 1/m
+  V3 n;                   ///< now
+  V3 sheared, turned;     ///< half of the way and of the angle by which the ends moved against each other: added to the springs at
+                          ///< either end of the step
+  BondRotation rotation;  ///< since the step before
+};
+/// B3, half-way: the bond follows its ends and turns about itself with the mean spin of the grains.
+/// \param d       x_i − x_j now
+/// \param motion  with which the grains have come there
+TSUBU_INLINE BondPath pathOf(V3 d, double radiusSum, const BondMotion& motion, double dt) {
+  const V3 way = (0.5 * dt) * motion.velocity, spin = (0.5 * dt) * motion.spinSum, middle = d - way;
+  const double r = norm(d), middle2 = norm2(middle), unit = middle2 * radiusSum;
+  // Everything over the sum of the radii, and g over that and |middle|²: one division, at the end, for all reciprocals.
+  const V3 sheared = radiusSum * way + cross(middle, spin);
+  // Of the mean spin, middle × sheared takes away what is across the bond and puts there how the bond itself turns.
+  const V3 g = middle2 * spin + cross(middle, sheared);
+  const double unit2 = unit * unit, both2 = unit2 + norm2(g), rUnit = r * unit;
+  const double all = 1 / (rUnit * both2), perRUnit = all * both2, perUnit = perRUnit * r, perRadiusSum = perUnit * middle2;
+  return {
+      r, perRadiusSum, (perRUnit * unit) * d, perRadiusSum * sheared, (0.5 * dt) * motion.spin, {perUnit * g, 2 * (all * rUnit) * unit2}};
+}
+
 /// By how much v changes.
 TSUBU_INLINE V3 changeBy(const BondRotation& rotation, V3 v) { return cross(rotation.scale * rotation.g, v + cross(rotation.g, v)); }
 
@@ -202,10 +200,9 @@ TSUBU_INLINE V3 changeBy(const BondRotation& rotation, V3 v) { return cross(rota
 TSUBU_INLINE V3 acrossOf(V3 v, V3 n) { return v - dot(v, n) * n; }
 
 /// What a step adds to the springs, in the directions of its end. Half of it is added at its beginning, and turns with the bond.
-TSUBU_INLINE BondStrain strainBy(const BondPath& path, const BondRotation& rotation, V3 spin, double r0, double r, double dt) {
-  const V3 turned = (0.5 * dt) * spin;
-  const V3 shear = acrossOf(2 * path.sheared + changeBy(rotation, path.sheared), path.n);
-  return strainOf({shear, 2 * turned + changeBy(rotation, turned), r0}, path.n, r);
+TSUBU_INLINE BondStrain strainBy(const BondPath& path, double r0) {
+  const V3 shear = acrossOf(2 * path.sheared + changeBy(path.rotation, path.sheared), path.n);
+  return strainOf({shear, 2 * path.turned + changeBy(path.rotation, path.turned), r0}, path.n, path.r);
 }
 
 /// B5 in a step: what is left of a spring, and of what the step adds to it. (1 − ½ηΔt)/(1 + ½ηΔt) rather than 1 − ηΔt (Bond 11): second
@@ -238,22 +235,23 @@ TSUBU_INLINE double relaxedIn(const BondKind& kind, const BondSprings& k, const 
 /// \param r0  the length at its beginning; read by B5 only
 /// \return what has relaxed, J
 template <BondDamping damping>
-TSUBU_INLINE double stretchBond(const BondKind& kind, const BondBody& body, const BondPath& path, const BondRotation& rotation, V3 spin,
-                                double r0, double r, double dt, BondMemory& memory) {
+TSUBU_INLINE double stretchBond(const BondKind& kind, const BondBody& body, const BondPath& path, double r0, double dt,
+                                BondMemory& memory) {
   if constexpr (damping == BondDamping::exponential) {
-    const BondMemory turned{memory.shear + changeBy(rotation, memory.shear), memory.turn + changeBy(rotation, memory.turn), memory.rest};
-    const BondStrain before = strainOf(turned, path.n, r0), by = strainBy(path, rotation, spin, r0, r, dt);
+    const BondMemory turned{memory.shear + changeBy(path.rotation, memory.shear), memory.turn + changeBy(path.rotation, memory.turn),
+                            memory.rest};
+    const BondStrain before = strainOf(turned, path.n, r0), by = strainBy(path, r0);
     const BondStrain now{BondRelaxation<damping>(kind, along, dt).after(before.stretch, by.stretch),
                          acrossOf(BondRelaxation<damping>(kind, across, dt).after(before.shear, by.shear), path.n),
                          BondRelaxation<damping>(kind, twisting, dt).after(before.twist, by.twist),
                          BondRelaxation<damping>(kind, bending, dt).after(before.bend, by.bend)};
-    memory = {now.shear, now.bend + now.twist * path.n, now.stretch + r};
+    memory = {now.shear, now.bend + now.twist * path.n, now.stretch + path.r};
     return relaxedIn(kind, springsOf(kind, body), before, now, dt);
   } else {
     // The same with one rotation for what was there and what is added.
-    const V3 turned = (0.5 * dt) * spin, shear = memory.shear + path.sheared, turn = memory.turn + turned;
-    memory.shear = acrossOf(shear + changeBy(rotation, shear) + path.sheared, path.n);
-    memory.turn = turn + changeBy(rotation, turn) + turned;
+    const V3 shear = memory.shear + path.sheared, turn = memory.turn + path.turned;
+    memory.shear = acrossOf(shear + changeBy(path.rotation, shear) + path.sheared, path.n);
+    memory.turn = turn + changeBy(path.rotation, turn) + path.turned;
     return 0;
   }
 }
@@ -285,54 +283,60 @@ TSUBU_INLINE BondWrench wrenchOf(const BondSprings& k, const BondMemory& memory,
   return {k.along * (memory.rest - r), -k.across * memory.shear, (k.bend - k.twist) * twist, -k.bend * memory.turn};
 }
 
-/// How the ends move against each other: the relative velocity where they meet (T0), the relative spin, and what of each is along n.
+/// How the ends move against each other in half a step: the way where they meet (T0), the angle, and what of each is along n.
 struct BondSlip {
-  V3 velocity;
+  V3 way;
   double along;
-  V3 spin;
+  V3 turn;
   double twist;
 };
+TSUBU_INLINE BondSlip slipOf(V3 way, V3 turn, V3 n) { return {way, dot(way, n), turn, dot(turn, n)}; }
+/// Where the velocities of the instant are not those that have moved the grains.
+TSUBU_INLINE BondSlip slipOf(const BondPath& path, const BondMotion& now, double dt) {
+  const V3 lever = (path.r * path.perRadiusSum) * path.n;
+  return slipOf((0.5 * dt) * (now.velocity + cross(lever, now.spinSum)), (0.5 * dt) * now.spin, path.n);
+}
 
-/// B4: the force of a spring over the speed against which a share of it acts. What is but the rounding of the whole motion is no motion.
-TSUBU_INLINE double forceOverSpeed(double force2, double speed2, double whole2) {
-  return std::sqrt(force2 / larger(speed2, larger(1e-24 * whole2, tiny)));
+/// B4: the force of a spring over the way against which a share of it acts. What is but the rounding of the whole way is no way.
+TSUBU_INLINE double forceOverWay(double force2, double way2, double whole2) {
+  return std::sqrt(force2 / larger(way2, larger(1e-24 * whole2, tiny)));
 }
 
 /// B4, B6: what dampers hold back.
 template <BondDamping damping>
-TSUBU_INLINE BondWrench heldBack(const BondKind& kind, const BondBody& body, const BondStrain& strain, const BondSlip& slip, V3 n) {
+TSUBU_INLINE BondWrench heldBack(const BondKind& kind, const BondBody& body, const BondStrain& strain, const BondSlip& slip, V3 n,
+                                 double dt) {
   const double* const eta = kind.eta;
   if constexpr (damping == BondDamping::viscous) {
     // The dashpot across acts on the whole velocity, that of bending on the whole spin.
-    return {(eta[along] - eta[across]) * body.critical * slip.along, (eta[across] * body.critical) * slip.velocity,
-            (eta[twisting] - eta[bending]) * body.bendCritical * slip.twist, (eta[bending] * body.bendCritical) * slip.spin};
+    const double rate = 2 / dt;
+    return {rate * (eta[along] - eta[across]) * body.critical * slip.along, (rate * eta[across] * body.critical) * slip.way,
+            rate * (eta[twisting] - eta[bending]) * body.bendCritical * slip.twist, (rate * eta[bending] * body.bendCritical) * slip.turn};
   } else {
     const BondPull pull = pullOf(springsOf(kind, body), strain);
-    const V3 vt = slip.velocity - slip.along * n, wt = slip.spin - slip.twist * n;
-    const double v2 = norm2(slip.velocity), w2 = norm2(slip.spin);
-    return {eta[along] * forceOverSpeed(pull.along * pull.along, slip.along * slip.along, v2) * slip.along,
-            (eta[across] * forceOverSpeed(norm2(pull.across), norm2(vt), v2)) * vt,
-            eta[twisting] * forceOverSpeed(pull.twist * pull.twist, slip.twist * slip.twist, w2) * slip.twist,
-            (eta[bending] * forceOverSpeed(norm2(pull.bend), norm2(wt), w2)) * wt};
+    const V3 slid = slip.way - slip.along * n, bent = slip.turn - slip.twist * n;
+    const double way2 = norm2(slip.way), turn2 = norm2(slip.turn);
+    return {eta[along] * forceOverWay(pull.along * pull.along, slip.along * slip.along, way2) * slip.along,
+            (eta[across] * forceOverWay(norm2(pull.across), norm2(slid), way2)) * slid,
+            eta[twisting] * forceOverWay(pull.twist * pull.twist, slip.twist * slip.twist, turn2) * slip.twist,
+            (eta[bending] * forceOverWay(norm2(pull.bend), norm2(bent), turn2)) * bent};
   }
 }
 
 /// \brief What a bond does, with its springs as they are now.
-/// \param now     motion of the instant; read by dampers only
+/// \param slip  at the instant; read by dampers only
 template <BondDamping damping, bool breakable>
-TSUBU_INLINE BondForce pullBond(const BondKind& kind, const BondBody& body, const BondMemory& memory, V3 n, double r, double perRadiusSum,
-                                const BondMotion& now, double dt) {
-  const V3 lever = (r * perRadiusSum) * n;
+TSUBU_INLINE BondForce pullBond(const BondKind& kind, const BondBody& body, const BondMemory& memory, const BondPath& path,
+                                const BondSlip& slip, double dt) {
+  const V3 n = path.n, lever = (path.r * path.perRadiusSum) * n;
   const double twist = dot(memory.turn, n);
-  BondWrench wrench = wrenchOf(springsOf(kind, body), memory, twist, r);
+  BondWrench wrench = wrenchOf(springsOf(kind, body), memory, twist, path.r);
   BondForce result{};
   result.holds = true;
-  if constexpr (breakable) result.holds = bondHolds(kind.limits, body, memory, twist, r);
+  if constexpr (breakable) result.holds = bondHolds(kind.limits, body, memory, twist, path.r);
   if constexpr (damping == BondDamping::percent || damping == BondDamping::viscous) {
-    const BondSlip slip{now.velocity + cross(lever, now.spinSum), dot(now.velocity, n), now.spin, dot(now.spin, n)};
-    const BondWrench held = heldBack<damping>(kind, body, strainOf(memory, n, r), slip, n);
-    result.loss =
-        dt * (held.moreAlong * slip.along + dot(held.force, slip.velocity) + held.moreTwist * slip.twist + dot(held.moment, slip.spin));
+    const BondWrench held = heldBack<damping>(kind, body, strainOf(memory, n, path.r), slip, n, dt);
+    result.loss = 2 * (held.moreAlong * slip.along + dot(held.force, slip.way) + held.moreTwist * slip.twist + dot(held.moment, slip.turn));
     wrench = wrench - held;
   }
   result.force = wrench.moreAlong * n + wrench.force;

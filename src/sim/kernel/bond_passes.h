@@ -81,16 +81,13 @@ TSUBU_INLINE void put(BondStage::Column* columns, int q, V3 v) { columns[0][q] =
 TSUBU_INLINE V3 at(double* const* columns, int q) { return {columns[0][q], columns[1][q], columns[2][q]}; }
 TSUBU_INLINE void put(double* const* columns, int q, V3 v) { columns[0][q] = v.x, columns[1][q] = v.y, columns[2][q] = v.z; }
 
-TSUBU_INLINE V3 spinSumAt(const BondStage::Motion& motion, int q) { return at(motion.surfaceI, q) + at(motion.surfaceJ, q); }
-TSUBU_INLINE V3 spinAt(const BondStage::Motion& motion, int q) {
-  return motion.perRadiusI[q] * at(motion.surfaceI, q) - motion.perRadiusJ[q] * at(motion.surfaceJ, q);
-}
 TSUBU_INLINE BondMotion at(const BondStage::Motion& motion, int q) {
-  return {at(motion.velocity, q), spinSumAt(motion, q), spinAt(motion, q)};
+  const V3 i = at(motion.surfaceI, q), j = at(motion.surfaceJ, q);
+  return {at(motion.velocity, q), i + j, motion.perRadiusI[q] * i - motion.perRadiusJ[q] * j};
 }
-TSUBU_INLINE BondLength lengthAt(const BondStage& s, int q) { return {s.r[q], s.perR[q], s.perRadiusSum[q], s.perMiddle2[q]}; }
-TSUBU_INLINE BondPath pathAt(const BondStage& s, int q) { return {at(s.n, q), at(s.rotation, q), at(s.sheared, q)}; }
-TSUBU_INLINE BondRotation rotationAt(const BondStage& s, int q) { return {at(s.rotation, q), s.scale[q]}; }
+TSUBU_INLINE BondPath pathAt(const BondStage& s, int q) {
+  return {s.r[q], s.perRadiusSum[q], at(s.n, q), at(s.sheared, q), at(s.turned, q), {at(s.rotation, q), s.scale[q]}};
+}
 
 /// A chunk of the columns of bonds.
 struct BondChunk {
@@ -116,18 +113,13 @@ struct BondChunk {
 void findPaths(int count, double dt, BondStage& s) {
   TSUBU_INDEPENDENT
   for (int q = 0; q < count; ++q) {
-    const BondLength length = lengthOf(at(s.d, q), s.radiusSum[q], at(s.half.velocity, q), dt);
-    s.r[q] = length.r, s.perR[q] = length.perR, s.perRadiusSum[q] = length.perRadiusSum, s.perMiddle2[q] = length.perMiddle2;
-  }
-  TSUBU_INDEPENDENT
-  for (int q = 0; q < count; ++q) {
-    const BondPath path = pathOf(at(s.d, q), lengthAt(s, q), at(s.half.velocity, q), spinSumAt(s.half, q), dt);
+    const BondPath path = pathOf(at(s.d, q), s.radiusSum[q], at(s.half, q), dt);
+    s.r[q] = path.r, s.perRadiusSum[q] = path.perRadiusSum, s.scale[q] = path.rotation.scale;
     put(s.n, q, path.n);
-    put(s.rotation, q, path.rotation);
     put(s.sheared, q, path.sheared);
+    put(s.turned, q, path.turned);
+    put(s.rotation, q, path.rotation.g);
   }
-  TSUBU_INDEPENDENT
-  for (int q = 0; q < count; ++q) s.scale[q] = scaleOf(at(s.rotation, q));
 }
 
 template <BondDamping damping, bool accounts>
@@ -144,7 +136,7 @@ void stretchBonds(const BondKind& given, const BondChunk& bonds, int count, doub
     BondMemory memory{at(shear, q), at(turn, q), relaxes ? rest[q] : 0};
     const BondBody body{relaxes ? radius[q] : 0, relaxes ? length[q] : 0, 0, 0};
     const double r0 = relaxes ? lengthBefore(at(s.d, q), at(s.half.velocity, q), dt) : 0;
-    const double relaxed = stretchBond<damping>(kind, body, pathAt(s, q), rotationAt(s, q), spinAt(s.half, q), r0, s.r[q], dt, memory);
+    const double relaxed = stretchBond<damping>(kind, body, pathAt(s, q), r0, dt, memory);
     put(shear, q, memory.shear);
     put(turn, q, memory.turn);
     if constexpr (relaxes) rest[q] = memory.rest;
@@ -158,8 +150,19 @@ inline void widen(const float* from, int count, BondStage::Column& to) {
   for (int q = 0; q < count; ++q) to[q] = from[q];
 }
 
-template <BondDamping damping, bool breakable, bool accounts>
-void pullBonds(const BondKind& given, const BondChunk& bonds, int count, double dt, const BondStage::Motion& instant, BondStage& s) {
+/// How the ends of a bond slip. `instant`: with velocities that are not those of the step.
+template <BondDamping damping, bool instant>
+TSUBU_INLINE BondSlip slipAt(const BondStage& s, const BondPath& path, double dt, int q) {
+  if constexpr (!dampsMotion<damping>)
+    return {};
+  else if constexpr (instant)
+    return slipOf(path, at(s.now, q), dt);
+  else
+    return slipOf(path.sheared, path.turned, path.n);
+}
+
+template <BondDamping damping, bool breakable, bool accounts, bool instant>
+void pullBonds(const BondKind& given, const BondChunk& bonds, int count, double dt, BondStage& s) {
   constexpr bool viscous = damping == BondDamping::viscous;
   const BondKind kind = given;
   const double* const radius = bonds.radius;
@@ -170,8 +173,8 @@ void pullBonds(const BondKind& given, const BondChunk& bonds, int count, double 
     // What does not relax still has its first length as the length at rest: a column less to read.
     const double length = damping == BondDamping::exponential ? firstLength[q] : memory.rest;
     const BondBody body{radius[q], length, viscous ? s.critical[q] : 0, viscous ? s.bendCritical[q] : 0};
-    const BondForce f = pullBond<damping, breakable>(kind, body, memory, at(s.n, q), s.r[q], s.perRadiusSum[q],
-                                                     dampsMotion<damping> ? at(instant, q) : BondMotion{}, dt);
+    const BondPath path = pathAt(s, q);
+    const BondForce f = pullBond<damping, breakable>(kind, body, memory, path, slipAt<damping, instant>(s, path, dt, q), dt);
     const bool holds = !breakable || f.holds;
     put(s.force, q, select(holds, f.force, {0, 0, 0}));
     put(s.coupleI, q, select(holds, f.couple - s.half.perRadiusI[q] * f.moment, {0, 0, 0}));
@@ -226,7 +229,7 @@ template <BondDamping damping>
 double heldBy(const BondKind& kind, const BondBody& body, const BondMemory& memory, double dt, const BondStage& s, int q) {
   const BondStrain now = strainOf(memory, at(s.n, q), s.r[q]);
   const double r0 = lengthBefore(at(s.d, q), at(s.half.velocity, q), dt);
-  const BondStrain by = strainBy(pathAt(s, q), rotationAt(s, q), spinAt(s.half, q), r0, s.r[q], dt);
+  const BondStrain by = strainBy(pathAt(s, q), r0);
   return springProduct(springsOf(kind, body), strainBefore<damping>(kind, now, by, dt), now);
 }
 
@@ -268,7 +271,10 @@ void passBonds(const BondKind& kind, BondColumns& bonds, const BondRows& first, 
       widen(chunk.critical, count, stage.critical);
       widen(chunk.bendCritical, count, stage.bendCritical);
     }
-    pullBonds<damping, breakable, accounts>(kind, chunk, count, dt, first.half ? stage.now : stage.half, stage);
+    if (dampsMotion<damping> && first.half)
+      pullBonds<damping, breakable, accounts, dampsMotion<damping>>(kind, chunk, count, dt, stage);
+    else
+      pullBonds<damping, breakable, accounts, false>(kind, chunk, count, dt, stage);
     if constexpr (dampsMotion<damping> && accounts) addToLanes(stage.loss, count, found.loss);
     if constexpr (damping == BondDamping::exponential && accounts) addToLanes(stage.relaxed, count, found.relaxed);
     if constexpr (breakable) noteBroken<damping>(kind, bonds, from, count, dt, stage, found);

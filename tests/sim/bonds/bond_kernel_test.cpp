@@ -77,19 +77,18 @@ void stepOneByOne(Cloud& cloud, bool withHalf) {
     const V3 d = at(&a.x) - at(&b.x);
     const BondBody body = cloud.bonds.body(k);
     BondMemory memory = cloud.bonds.memory(k);
-    const BondLength length = lengthOf(d, a.radius + b.radius, moved.velocity, dt);
-    const BondPath path = pathOf(d, length, moved.velocity, moved.spinSum, dt);
-    const BondRotation rotation{path.rotation, scaleOf(path.rotation)};
-    const double r = length.r, r0 = lengthBefore(d, moved.velocity, dt);
-    cloud.found.relaxed[0] += stretchBond<damping>(cloud.kind, body, path, rotation, moved.spin, r0, r, dt, memory);
-    const BondForce f = pullBond<damping, breakable>(cloud.kind, body, memory, path.n, r, length.perRadiusSum, now, dt);
+    const BondPath path = pathOf(d, a.radius + b.radius, moved, dt);
+    const BondSlip slip = withHalf ? slipOf(path, now, dt) : slipOf(path.sheared, path.turned, path.n);
+    const double r = path.r, r0 = lengthBefore(d, moved.velocity, dt);
+    cloud.found.relaxed[0] += stretchBond<damping>(cloud.kind, body, path, r0, dt, memory);
+    const BondForce f = pullBond<damping, breakable>(cloud.kind, body, memory, path, slip, dt);
     BondColumns one;
     one.add(0, 0, body, memory);
     for (std::size_t c = 0; c < BondColumns::columns; ++c) cloud.bonds.column[c][k] = one.column[c][0];
     if (!f.holds) {
       cloud.found.broken.push_back(static_cast<std::int32_t>(k));
       const BondStrain strain = strainOf(memory, path.n, r);
-      const BondStrain before = strainBefore<damping>(cloud.kind, strain, strainBy(path, rotation, moved.spin, r0, r, dt), dt);
+      const BondStrain before = strainBefore<damping>(cloud.kind, strain, strainBy(path, r0), dt);
       cloud.found.released += springProduct(springsOf(cloud.kind, body), before, strain);
       continue;
     }

@@ -54,11 +54,10 @@ struct Led {
   /// The law's four parts, one after the other, when i has come to d.
   template <BondDamping damping, bool breakable>
   void step(const BondKind& kind, const BondMotion& motion, double dt) {
-    const BondLength length = lengthOf(v3(d), ri + rj, motion.velocity, dt);
-    const BondPath path = pathOf(v3(d), length, motion.velocity, motion.spinSum, dt);
+    const BondPath path = pathOf(v3(d), ri + rj, motion, dt);
     const double r0 = lengthBefore(v3(d), motion.velocity, dt);
-    loss += stretchBond<damping>(kind, body, path, {path.rotation, scaleOf(path.rotation)}, motion.spin, r0, length.r, dt, memory);
-    force = pullBond<damping, breakable>(kind, body, memory, path.n, length.r, length.perRadiusSum, motion, dt);
+    loss += stretchBond<damping>(kind, body, path, r0, dt, memory);
+    force = pullBond<damping, breakable>(kind, body, memory, path, slipOf(path.sheared, path.turned, path.n), dt);
     loss += force.loss;
   }
   Vec3 torqueI() const { return -ri * vec(force.couple) + vec(force.moment); }
