@@ -13,7 +13,7 @@
 // Springs are vectors that turn with the bond: by one rotation in each step, exactly orthogonal, so that nothing leaks. Memory lives at
 // whole steps. From step to step it is advanced with the velocities of the half step that moved the grains, in the geometry half-way, so
 // that going back undoes it: without damping energy neither grows nor falls, in either integrator, and needs none of the least dashpot of
-// T6. Dampers see the velocity of the instant.
+// T6. Dampers see how the ends slip at the instant or, where only velocities of half steps are known, what they slipped in the step.
 //
 // Source: "linear bond model" (Bond 1–14), corrected (docs/physics.md). Proven by tests/sim/bonds and tests/verification/bonds_test.cpp.
 
