@@ -1,5 +1,8 @@
 #include "render/frame.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "render/colour_map.h"
 
 namespace tsubu::render {
@@ -39,6 +42,19 @@ Box boundsOf(const Snapshot& snapshot, const std::vector<std::uint32_t>& drawabl
   return box;
 }
 
+// What shadows are drawn for: the bounds of the scene and what has left them. In steps, since texels that grew with every frame would make
+// shadows shimmer; no farther than the scene is wide, since the map would be too coarse for all the others; and not for those that are
+// but pressed into its walls, for whom the map has a margin.
+Box shadedBounds(const Box& bounds, const Box& grains) {
+  const double width = bounds.diagonal().norm(), step = 0.25 * width, margin = 0.01 * width;
+  if (grains.isEmpty() || !(step > 0)) return bounds;
+  const auto beyond = [&](double way) { return way > margin ? std::min(std::ceil(way / step) * step, width) : 0.0; };
+  Box all;
+  all.extend(Vec3(bounds.min() - Vec3(bounds.min() - grains.min()).unaryExpr(beyond)));
+  all.extend(Vec3(bounds.max() + Vec3(grains.max() - bounds.max()).unaryExpr(beyond)));
+  return all;
+}
+
 }  // namespace
 
 Pose poseOf(const std::vector<Pose>& poses, std::size_t k) { return k < poses.size() ? poses[k] : Pose(); }
@@ -51,7 +67,7 @@ Frame makeFrame(const Snapshot& snapshot, const Style& style, const std::vector<
   frame.bounds = bounds.isEmpty() ? boundsOf(snapshot, drawable) : bounds;
   frame.view = viewAt(style.camera, snapshot.time, static_cast<double>(width) / height, frame.bounds);
   frame.nearPlane = 1e-3 * frame.view.distance;
-  frame.sun = sunOver(frame.bounds, style.light.from);
+  frame.sun = sunOver(shadedBounds(frame.bounds, boundsOf(snapshot, drawable)), style.light.from);
   const std::vector<SeenGrain> seen = seenGrains(snapshot, drawable, frame.view, frame.nearPlane, width, height);
   addGrains(frame, seen, snapshot, style);
   addWalls(frame, walls, snapshot.walls, style, side);

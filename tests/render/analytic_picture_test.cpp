@@ -267,16 +267,19 @@ TEST(AnalyticPicture, ASphereThrowsItsShadowAlongTheRaysOfTheSun) {
   WallLook look;
   look.colour = {200, 200, 200};
   const VisibleWall floor{quadMesh({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}), look};
-  const Image image = Renderer(style, {floor}, Box(Vec3(-3, -3, 0), Vec3(3, 3, 3))).draw(snapshot);
-  const auto at = [&](double x, double y) {  // the floor spans 12 m over 200 pixels
-    const auto pixel = [](double offset) { return static_cast<int>(std::lround(100 + offset * 200 / 12 - 0.5)); };
-    return brightness(image.pixel(pixel(x), pixel(-y)));
-  };
-  // The shadow is the ellipse around (−1, 0), half as wide as long: ±0.5·√2 in x, ±0.5 in y.
-  const int lit = at(-3, 0), shade = at(-1, 0);
-  EXPECT_LT(shade, 0.75 * lit);
-  for (const auto& [x, y] : {std::pair(-1.5, 0.0), {-0.5, 0.0}, {-1.0, 0.35}, {-1.0, -0.35}}) EXPECT_NEAR(at(x, y), shade, 0.05 * lit);
-  for (const auto& [x, y] : {std::pair(-2.0, 0.0), {0.0, 0.0}, {-1.0, 0.75}, {-1.0, -0.75}}) EXPECT_NEAR(at(x, y), lit, 0.05 * lit);
+  // In the bounds of the scene, and where it has left them.
+  for (const Box& bounds : {Box(Vec3(-3, -3, 0), Vec3(3, 3, 3)), Box(Vec3(2, 0.5, 0), Vec3(4, 2.5, 1))}) {
+    const Image image = Renderer(style, {floor}, bounds).draw(snapshot);
+    const auto at = [&](double x, double y) {  // the floor spans 12 m over 200 pixels
+      const auto pixel = [](double offset) { return static_cast<int>(std::lround(100 + offset * 200 / 12 - 0.5)); };
+      return brightness(image.pixel(pixel(x), pixel(-y)));
+    };
+    // The shadow is the ellipse around (−1, 0), half as wide as long: ±0.5·√2 in x, ±0.5 in y.
+    const int lit = at(-3, 0), shade = at(-1, 0);
+    EXPECT_LT(shade, 0.75 * lit);
+    for (const auto& [x, y] : {std::pair(-1.5, 0.0), {-0.5, 0.0}, {-1.0, 0.35}, {-1.0, -0.35}}) EXPECT_NEAR(at(x, y), shade, 0.05 * lit);
+    for (const auto& [x, y] : {std::pair(-2.0, 0.0), {0.0, 0.0}, {-1.0, 0.75}, {-1.0, -0.75}}) EXPECT_NEAR(at(x, y), lit, 0.05 * lit);
+  }
 }
 
 TEST(AnalyticPicture, ALitSphereHasNoShadowOnItself) {
