@@ -43,12 +43,12 @@ Box boundsOf(const Snapshot& snapshot, const std::vector<std::uint32_t>& drawabl
 }
 
 // What shadows are drawn for: the bounds of the scene and what has left them. In steps, since texels that grew with every frame would make
-// shadows shimmer; no farther than the scene is wide, since the map would be too coarse for all the others; and not for those that are
-// but pressed into its walls, for whom the map has a margin.
+// shadows shimmer; no farther than the scene is wide, since the map would be too coarse for all the others; and not for what leaves them by
+// little, again and again, as in a box that is shaken: shadows would flicker.
 Box shadedBounds(const Box& bounds, const Box& grains) {
-  const double width = bounds.diagonal().norm(), step = 0.25 * width, margin = 0.01 * width;
+  const double width = bounds.diagonal().norm(), step = 0.25 * width, little = 0.1 * width;
   if (grains.isEmpty() || !(step > 0)) return bounds;
-  const auto beyond = [&](double way) { return way > margin ? std::min(std::ceil(way / step) * step, width) : 0.0; };
+  const auto beyond = [&](double way) { return way > little ? std::min(std::ceil(way / step) * step, width) : 0.0; };
   Box all;
   all.extend(Vec3(bounds.min() - Vec3(bounds.min() - grains.min()).unaryExpr(beyond)));
   all.extend(Vec3(bounds.max() + Vec3(grains.max() - bounds.max()).unaryExpr(beyond)));
