@@ -16,8 +16,6 @@ namespace tsubu::study {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // Of the budget, what goes into the reference and its refinement; steps that it may have, as shares of the limit.
 constexpr double shareOfReference = 0.4;
 constexpr double referenceSteps[] = {0.01, 0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45};
@@ -40,12 +38,14 @@ struct Job {
 /// Runs jobs, several at a time, as long as the budget lasts.
 class Runner {
  public:
-  Runner(Study& study, const scene::Scene& scene, const Stop& stop, const std::function<void(const Progress&)>& tell)
+  Runner(Study& study, const scene::Scene& scene, const Stop& stop, const std::function<void(const Progress&)>& tell,
+         const Machine& machine)
       : study_(study),
         scene_(scene),
         request_(study.request),
         stop_(stop),
         tell_(tell),
+        machine_(machine),
         store_(request_.folder / "trials", request_.version) {}
 
   Trial trialOf(const Point& point, int seed) const {
@@ -78,7 +78,7 @@ class Runner {
     if (broken()) study_.complete = false;
   }
 
-  double used() const { return std::max(cost_ / request_.threads, std::chrono::duration<double>(Clock::now() - start_).count()); }
+  double used() const { return std::max(cost_ / request_.threads, machine_.seconds() - start_); }
 
  private:
   bool broken() const { return stop_ && stop_(); }
@@ -112,7 +112,7 @@ class Runner {
         lock.unlock();
         if (!allowed) return;
         const Stop stop = [&] { return broken() || (!must && used() > grace * request_.budget); };
-        outcome = study::run(trial, stop, pilot ? Watch([this](double done, double spent) { return tooLong(done, spent); }) : Watch());
+        outcome = machine_.run(trial, stop, pilot ? Watch([this](double done, double spent) { return tooLong(done, spent); }) : Watch());
         if (outcome) store_.keep(trial, *outcome);
         lock.lock();
         underway_ -= cost;
@@ -152,8 +152,9 @@ class Runner {
   const Request& request_;
   const Stop& stop_;
   const std::function<void(const Progress&)>& tell_;
+  const Machine& machine_;
   TrialStore store_;
-  Clock::time_point start_ = Clock::now();
+  double start_ = machine_.seconds();
   std::mutex mutex_;
   double cost_ = 0, underway_ = 0;  // CPU seconds
   std::size_t planned_ = 0;
@@ -164,8 +165,8 @@ class Runner {
 /// The plan of a study, made while it is carried out: what is worth running depends on what has been seen.
 class Planner {
  public:
-  Planner(const Request& request, const Stop& stop, const std::function<void(const Progress&)>& tell)
-      : stop_(stop), tell_(tell), scene_(scene::read(request.scene, request.overrides)) {
+  Planner(const Request& request, const Stop& stop, const std::function<void(const Progress&)>& tell, const Machine& machine)
+      : stop_(stop), tell_(tell), machine_(machine), scene_(scene::read(request.scene, request.overrides)) {
     study_.request = request;
     study_.end = scene_.simulation.end;
     study_.key = keyOfStudy({request.scene, request.overrides}, study_.end, request.version);
@@ -173,7 +174,7 @@ class Planner {
   }
 
   Study go() {
-    Runner runner(study_, scene_, stop_, tell_);
+    Runner runner(study_, scene_, stop_, tell_, machine_);
     add("scene", 0, {}, "as it is");
     runner.run({{0, 1}}, true);
     if (study_.complete) lookAtPilot();
@@ -361,14 +362,17 @@ class Planner {
 
   const Stop& stop_;
   const std::function<void(const Progress&)>& tell_;
+  const Machine& machine_;
   scene::Scene scene_;
   Study study_;
 };
 
 }  // namespace
 
-Study tradeoff(const Request& request, const Stop& stop, const std::function<void(const Progress&)>& tell) {
-  return Planner(request, stop, tell).go();
+double steadySeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+Study tradeoff(const Request& request, const Stop& stop, const std::function<void(const Progress&)>& tell, const Machine& machine) {
+  return Planner(request, stop, tell, machine).go();
 }
 
 }  // namespace tsubu::study

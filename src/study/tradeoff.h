@@ -103,9 +103,18 @@ struct Progress {
   double used, budget;
 };
 
+/// s: from some moment on, never back.
+double steadySeconds();
+
+/// What runs trials, and the clock that the budget goes by: this machine, unless a test has one on which everything takes the same time.
+struct Machine {
+  std::function<std::optional<Outcome>(const Trial&, const Stop&, const Watch&)> run = study::run;
+  std::function<double()> seconds = steadySeconds;
+};
+
 /// \brief Runs what the budget allows, in the order of importance. Trials lie in `folder`/trials: what is there is not run again.
 /// Throws Error(scene) when the scene or the request is wrong, or the budget too small for a reference.
-Study tradeoff(const Request& request, const Stop& stop, const std::function<void(const Progress&)>& tell);
+Study tradeoff(const Request& request, const Stop& stop, const std::function<void(const Progress&)>& tell, const Machine& machine = {});
 
 /// Costs, errors, noise, the front: from the trials that there are.
 void analyse(Study& study);
