@@ -19,8 +19,9 @@ constexpr double searchTravel = 0.01;
 void BondPass::makeDue(const World& world) {
   const double slack = 0.5 * world.step.dt;
   if (world.time > until_ + slack) {
-    known_.clear();
-    knownAtWalls_.clear();
+    // Not clear(), which goes over all buckets, of an empty set too: in every step.
+    std::unordered_set<std::uint64_t>().swap(known_);
+    std::unordered_set<std::uint64_t>().swap(knownAtWalls_);
     return;
   }
   bool searched = false;
