@@ -12,17 +12,10 @@ import json
 import sys
 
 
-def machine():
-    with open("/proc/cpuinfo") as file:
-        for line in file:
-            if line.startswith("model name"):
-                return " ".join(line.split(":", 1)[1].split())
-    return "unknown"
-
-
-def main(path, isa):
+def main(path):
     with open(path) as file:
-        runs = [run for run in json.load(file)["benchmarks"] if run["run_type"] == "iteration"]
+        told = json.load(file)
+    context, runs = told["context"], [run for run in told["benchmarks"] if run["run_type"] == "iteration"]
     rows = {}
     for run in runs:
         feature, _, base = run["run_name"].removesuffix("/real_time").partition(" | ")
@@ -33,10 +26,12 @@ def main(path, isa):
     out.writerow(["feature", "compared_with", "ns_per_grain_step", "ns_added", "bytes_per_grain_added", "bytes_per_contact_added", "state_hash",
                   "machine", "isa"])
     for feature, row in sorted(rows.items(), key=lambda item: (item[1]["base"] != "", item[0])):
+        if row["base"] and row["base"] not in rows:
+            sys.exit(f"'{feature}' is compared with '{row['base']}', which was not measured")
         base = rows.get(row["base"], {"ns": 0, "grain": 0, "contact": 0})
         out.writerow([feature, row["base"], f"{row['ns']:.1f}", f"{row['ns'] - base['ns']:.1f}", round(row["grain"] - base["grain"]),
-                      round(row["contact"] - base["contact"]), row["hash"], machine(), isa])
+                      round(row["contact"] - base["contact"]), row["hash"], context["processor"], context["isa"]])
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else "avx512")
+    main(sys.argv[1])

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <memory>
 #include <string>
 
@@ -245,11 +246,21 @@ void addAll() {
     add(std::string(kernels.isa) + " | tangential: spring", bed(friction()), 1, std::string(kernels.isa));
 }
 
+/// As Linux names it.
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos) return line.substr(line.find(": ") + 2);
+  return "unknown";
+}
+
 }  // namespace
 }  // namespace tsubu::sim
 
 int main(int argc, char** argv) {
   tsubu::sim::addAll();
+  benchmark::AddCustomContext("isa", std::string(tsubu::sim::kernels().isa));
+  benchmark::AddCustomContext("processor", tsubu::sim::processor());
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

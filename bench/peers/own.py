@@ -57,8 +57,9 @@ def bonds(session):
 
 def frames(session):
     """The bed on one thread, with frames and without: time of the simulation alone, and of all."""
-    grains, steps = session.bed(), session.steps(4000)
-    series = alternate(session, [(bed.Work(f"bed {word} frames", steps), grains, "", {"frames": word == "with"}) for word in ("without", "with")])
+    (grains, sides), steps = session.bed(), session.steps(4000)
+    work = bed.Work("bed", steps, planes=bed.box(*sides)).fitted(grains)
+    series = alternate(session, [(replace(work, name=f"bed {word} frames"), grains, "", {"frames": word == "with"}) for word in ("without", "with")])
     drawn, bare = series["bed with frames"], series["bed without frames"]
     session.add(Row(f"simulation while {steps // bed.OUTPUT_EVERY + 1} frames are written", "with", drawn.seconds, "without", bare.seconds, "s", True),
                 Row("the whole run, start and last frame included", "with", drawn.median("wall_seconds"), "without", bare.median("wall_seconds"), "s", True))
@@ -66,12 +67,13 @@ def frames(session):
 
 def memory(session):
     """Peak of resident memory beyond that of ten grains, per grain, with friction and without."""
-    tiles, grains = session.tiles(4), session.bed()
-    many = bed.lay_out(grains, tiles, session.side)
+    tiles, (grains, sides) = session.tiles(4), session.bed()
+    many = bed.lay_out(grains, tiles, *sides)
     for friction in (True, False):
         word = "with" if friction else "without"
         series = list(alternate(session, [
-            (bed.Work(f"{len(some)} grains {word} friction", session.steps(300), friction=friction, planes=bed.box(session.side * count)), some, "", {})
+            (bed.Work(f"{len(some)} grains {word} friction", session.steps(300), friction=friction,
+                      planes=bed.box(*(count * side for side in sides))).fitted(grains), some, "", {})
             for some, count in ((grains[:10], 1), (many, tiles))]).values())
         few, full = (one.median("peak_bytes") for one in series)
         told = codes.call([session.tsubu.program, "explain", "bed.toml"], series[1].directory).text
