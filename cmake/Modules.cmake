@@ -41,7 +41,10 @@ function(tsubu_test name)
     add_dependencies(tsubu_unit_tests ${name})
   endif()
   if(NOT T_TIMEOUT)
-    set(T_TIMEOUT 600)
+    set(T_TIMEOUT 1500)  # for the slowest machine: with sanitizers, and neighbours
   endif()
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${T_TIMEOUT} LABELS "${T_LABELS}")
+  # Folders of this build: two checkouts may be tested at once.
+  file(MAKE_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}/files")
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${T_TIMEOUT} LABELS "${T_LABELS}"
+    ENVIRONMENT "TEST_TMPDIR=${CMAKE_CURRENT_BINARY_DIR}/files/")
 endfunction()

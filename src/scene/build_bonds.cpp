@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/portable_math.h"
 #include "scene/pairs.h"
 
 namespace tsubu::scene {
@@ -42,7 +43,7 @@ sim::BondStrength strengthOf(const BondStrength& given) {
   strength.tension = given.tension.value_or(sim::BondStrength::never);
   if (given.compressionRatio) strength.compression = *given.compressionRatio * strength.tension;
   strength.shear = given.shear.value_or(sim::BondStrength::never);
-  strength.pressureSlope = std::tan(given.frictionAngle);
+  strength.pressureSlope = portable::tan(given.frictionAngle);
   strength.stretch = given.stretch.value_or(sim::BondStrength::never);
   return strength;
 }

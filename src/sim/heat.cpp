@@ -41,12 +41,15 @@ HeatPass::HeatPass(const Model& model) {
 void HeatPass::conduct(const World& world, int slab) {
   const State& state = world.state;
   const SlabPairs& pairs = world.pairs.slabs()[static_cast<std::size_t>(slab)];
-  for (std::size_t k = 0; k < pairs.i.size(); ++k) {
-    const auto i = static_cast<std::size_t>(pairs.i[k]), j = static_cast<std::size_t>(pairs.j[k]);
+  // Bonded grains conduct where they touch, like others; but only the outer list still has them.
+  const bool bonded = !pairs.outerTouch.empty();
+  const std::vector<std::int32_t>&first = bonded ? pairs.outerI : pairs.i, &second = bonded ? pairs.outerJ : pairs.j;
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    const auto i = static_cast<std::size_t>(first[k]), j = static_cast<std::size_t>(second[k]);
     const GrainRow &a = state.rows[i], &b = state.rows[j];
     const double reach = a.radius + b.radius, distance2 = norm2(a.position() - b.position());
     if (!(distance2 < reach * reach)) continue;
-    const std::int32_t partner = pairs.grainOf(pairs.j[k]);
+    const std::int32_t partner = pairs.grainOf(second[k]);
     const auto p = static_cast<std::size_t>(partner);
     const double h = conductanceOf(harmonicMean(conductivity_[state.material[i]], conductivity_[state.material[p]]),
                                    1 / (a.inverseRadius + b.inverseRadius), reach - std::sqrt(distance2));

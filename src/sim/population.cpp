@@ -95,7 +95,8 @@ void Simulation::Impl::countCrossings() {
   for (std::size_t g = 0; g < state.size() && !model.counters.empty(); ++g) countCrossing(g);
 }
 
-// Asked of many grains, on all threads where lists are due; the few that do are then dealt with in order.
+// Asked of many grains, on all threads unless the lists are due for another reason than their ways; the few that do are then dealt with
+// in order.
 bool Simulation::Impl::goesOrCrosses(std::size_t grain) const {
   const Vec3 x = positionOf(state.rows[grain]);
   if (!model.counters.empty() && sidesOf(x) != state.sides[grain]) return true;

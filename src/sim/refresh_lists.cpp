@@ -74,6 +74,10 @@ void Simulation::Impl::giveSkins() {
   // In a periodic domain no pair may be listed twice: half a period is as far as lists may reach.
   for (int axis = 0; axis < 3; ++axis)
     if (periods.along(axis)) rule.most = std::min(rule.most, 0.25 * periods.length(axis) - largest);
+  // Nor may magnets meet twice: the pass refuses a domain that is too short for their reach and the least skin.
+  for (int axis = 0; axis < 3; ++axis)
+    if (model.magnets && periods.along(axis))
+      rule.most = std::min(rule.most, std::max(rule.least, 0.25 * periods.length(axis) - 0.5 * model.magnets->cutOff));
   rule.least = std::min(rule.least, rule.most);
   state.skin = chooseSkins(state.rows, rule, team);
   largestSkin = state.skin.empty() ? 0.0 : static_cast<double>(*std::max_element(state.skin.begin(), state.skin.end()));

@@ -365,7 +365,7 @@ void Simulation::Impl::move() {
   ++steps;
   grainSteps += state.size();
   forcesKnown = false;
-  if (far && !model.continuous) watchTravel();
+  if (far) watchTravel();
 }
 
 void Simulation::Impl::complain(const std::string& sentence, const std::string& hint) {
@@ -388,7 +388,7 @@ void Simulation::Impl::watchTravel() {
     const GrainRow& row = state.rows[g];
     const double speed = Vec3(row.vx, row.vy, row.vz).norm();
     if (!std::isfinite(speed + row.x + row.y + row.z)) notANumber(g);
-    if (warnedTravel_ || !(speed * model.timeStep > model.watch.travelLimit * row.radius)) continue;
+    if (model.continuous || warnedTravel_ || !(speed * model.timeStep > model.watch.travelLimit * row.radius)) continue;
     warnedTravel_ = true;
     complain(fmt::format("A grain moves {:.2g} of its radius in one step, more than {:.2g}: {}, speed {:.4g} m/s.",
                          speed * model.timeStep / row.radius, model.watch.travelLimit, describe(g), speed),

@@ -65,8 +65,8 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// Takes `steps` steps. Throws Error(simulation) with grain, place, time and likely cause when the watch says stop; the state is
-  /// then that of the last complete step.
+  /// Takes `steps` steps. Throws Error(simulation) with grain, place, time and likely cause when the watch says stop, which
+  /// may be in the middle of a step: it is over then, neither to be advanced nor to be looked at.
   void advance(std::uint64_t steps);
 
   double time() const;

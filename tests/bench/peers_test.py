@@ -193,7 +193,7 @@ class Run(unittest.TestCase):
                    "--runs", "2", "--steps", "20", "--tiles", "2", *options]
         # With no other codes than those that a test puts there.
         path = f"{self.folder / 'bin'}:/usr/bin:/bin" if (self.folder / "bin").is_dir() else ""
-        return subprocess.run(command, capture_output=True, text=True, timeout=250, env=dict(os.environ, PATH=path))
+        return subprocess.run(command, capture_output=True, text=True, timeout=600, env=dict(os.environ, PATH=path))
 
     def program(self, name, text):
         path = self.folder / "bin" / name

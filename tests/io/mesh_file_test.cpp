@@ -237,7 +237,7 @@ TEST_F(MeshFile, PolygonsAreCutWithoutLosingArea) {
 TEST_F(MeshFile, TheLocaleDoesNotMatter) {
   const fs::path path = write("box.stl", asciiStl(box()));
   const std::string before = std::setlocale(LC_ALL, nullptr);
-  std::setlocale(LC_ALL, "de_DE.UTF-8");  // decimal commas, where that locale is installed
+  if (!std::setlocale(LC_ALL, "de_DE.UTF-8")) GTEST_SKIP() << "no locale with decimal commas is installed";
   expectBox(path);
   std::setlocale(LC_ALL, before.c_str());
 }

@@ -26,12 +26,20 @@ struct Warm : Scenario {
   }
 };
 
-// The difference falls off as exp(−h (1/C₁ + 1/C₂) t), h = 2 k* √(R* δ); the mean of the heat stays.
-TEST(Heat, TwoGrainsApproachTheirMean) {
+// The difference falls off as exp(−h (1/C₁ + 1/C₂) t), h = 2 k* √(R* δ); the mean of the heat stays. Bonded or not: the contact is there.
+class TwoGrains : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Heat, TwoGrains, testing::Bool(), [](const auto& bonded) { return bonded.param ? "bonded" : "apart"; });
+
+TEST_P(TwoGrains, ApproachTheirMean) {
   const double r1 = 2e-3, r2 = 3.5e-3, overlap = 2e-4, m1 = 1e-4, m2 = 7e-4, k1 = 0.8, k2 = 16, c1 = 800, c2 = 450;
   Warm s;
   s.grain(m1, r1, {0, 0, 0}, 400, k1, c1);
   s.grain(m2, r2, (r1 + r2 - overlap) * Vec3(1, 2, -2) / 3, 290, k2, c2);
+  if (GetParam()) {
+    Bonding bonding;
+    bonding.stiffness = 1e-6;
+    s.model.bonds.push_back(bonding);
+  }
   const double h = 2 * (2 * k1 * k2 / (k1 + k2)) * std::sqrt(r1 * r2 / (r1 + r2) * overlap), C1 = m1 * c1, C2 = m2 * c2;
   const double rate = h * (1 / C1 + 1 / C2), t = 0.7 / rate, mean = (C1 * 400 + C2 * 290) / (C1 + C2);
   double before = 0;

@@ -3,9 +3,10 @@
 
 usage: kernels_are_vectors.py OBJDUMP OBJECT...
 
-OBJECT: what a kernel file was compiled to, with the name of its instruction set (contacts_avx2.cpp.o, single_avx512.cpp.o, bonds_avx2.cpp.o). Every
+OBJECT: what a kernel file was compiled to, with the name of its instruction set (contacts_avx2.cpp.o, single_avx512.cpp.o, bonds_portable.cpp.o). Every
 pass over contacts and bonds must have a fair share of operations on whole vectors of that width: those on single numbers are for the contacts that
 are left over at the end of a loop, and every loop has both. And no function that is not its own may be left in it as a copy that the linker could choose.
+Objects of the portable set have scalar loops; of all sets none may touch MMX registers, after which nothing works that is done in long double.
 """
 
 import re
@@ -41,10 +42,20 @@ def leaks(objdump, file):
     return [line.split(None, 5)[-1] for line in table.splitlines() if re.match(r"[0-9a-f]+ .w....F (?!\*UND\*)", line)]
 
 
+def touches_mmx(objdump, file):
+    listing = subprocess.run([objdump, "-d", "--no-show-raw-insn", file], capture_output=True, text=True, check=True).stdout
+    return re.search(r"%mm[0-7]\b", listing) is not None
+
+
 def main(objdump, *files):
     failed = not files
     for file in files:
-        part, isa = re.search(rf"(contacts|single|bonds|grains)_({'|'.join(WIDTH)})\.", file).groups()
+        part, isa = re.search(rf"(contacts|single|bonds|grains)_({'|'.join(WIDTH)}|portable)\.", file).groups()
+        if touches_mmx(objdump, file):
+            print(f"{isa}, {part}: MMX registers (-mno-mmx is missing)")
+            failed = True
+        if isa == "portable":
+            continue
         for name in leaks(objdump, file):
             print(f"{isa}, {part}: not inlined, and every processor may get this copy: {name}")
             failed = True

@@ -60,11 +60,14 @@ TEST(Watch, AFastGrainStopsTheRun) {
 }
 
 TEST(Watch, NotANumberAlwaysStops) {
-  Scenario s = smooth();
-  s.model.watch.stop = false;
-  s.grain(1e-5, 1e-3, {0, 0, 0}, {std::numeric_limits<double>::quiet_NaN(), 0, 0});
-  const std::string message = failureOf([&] { s.start(1e-5).advance(3); });
-  EXPECT_NE(message.find("Not a number"), std::string::npos) << message;
+  for (const bool continuous : {false, true}) {
+    Scenario s = smooth();
+    s.model.watch.stop = false;
+    s.model.continuous = continuous;
+    s.grain(1e-5, 1e-3, {0, 0, 0}, {std::numeric_limits<double>::quiet_NaN(), 0, 0});
+    const std::string message = failureOf([&] { s.start(1e-5).advance(3); });
+    EXPECT_NE(message.find("Not a number"), std::string::npos) << message;
+  }
 }
 
 TEST(Watch, WarnsOnceAndGoesOnWhenAsked) {

@@ -100,7 +100,7 @@ BondSwing swingOfBonds(const Model& model, bool laterOnly) {
     const double r = smallest.radius, inverseMass = 1 / smallest.mass, moment = 2.5 * inverseMass / (r * r);
     const BondBody body = bodyOf(bonding, r, 2 * r, {2 * inverseMass, 2 * moment});
     const Swing one = swingOf(bonding, body, r, r, 2 * inverseMass, moment, moment);
-    const double neighbours = 12 * std::pow(std::max(1.0, bonding.distance), 3);
+    const double distance = std::max(1.0, bonding.distance), neighbours = 12 * distance * distance * distance;
     later.stiffness += neighbours * one.stiffness;
     later.damping += neighbours * one.damping;
     if (neighbours * one.stiffness > most) most = neighbours * one.stiffness, worst.of = bonding.name;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/portable_math.h"
+
 namespace tsubu::sim {
 
 namespace {
@@ -15,11 +17,11 @@ struct Changed {
 
   Vec3 operator()(const GravityTurn& turn) const {
     const double angle = std::min(std::abs(turn.angularSpeed) * seconds, turn.angle);
-    return Eigen::AngleAxisd(std::copysign(angle, turn.angularSpeed), turn.axis.normalized()) * before;
+    return portable::turnBy(std::copysign(angle, turn.angularSpeed), turn.axis.normalized()) * before;
   }
   Vec3 operator()(const GravityShake& shake) const {
     if (!acts) return before;
-    return before + std::sin(2 * std::numbers::pi * shake.frequency * seconds + shake.phase) * shake.amplitude;
+    return before + portable::sin(2 * std::numbers::pi * shake.frequency * seconds + shake.phase) * shake.amplitude;
   }
 };
 

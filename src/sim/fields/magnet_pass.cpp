@@ -54,7 +54,7 @@ double fastestMagnet(const Model& model) {
     FieldAt at;
     for (const FieldSource& source : model.magnets->sources) addField(source, x, at);
     const double mass = model.materials[material].values[Property::density] * volumeOf(radius), inertia = 0.4 * mass * radius * radius;
-    const double neighbours = 24 * magneticConstant * std::abs(p) / std::pow(2 * radius, 3);
+    const double neighbours = 24 * magneticConstant * std::abs(p) / (8 * radius * radius * radius);
     most = std::max(most, std::abs(p) * (at.field.norm() + neighbours) / inertia);
   };
   for (const Grain& grain : model.grains) meet(grain.material, grain.radius, grain.position);

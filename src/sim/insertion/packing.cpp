@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/portable_math.h"
 #include "sim/insertion/sphere_grid.h"
 
 namespace tsubu::sim {
@@ -176,7 +177,7 @@ class Packer {
   bool pushApart() {
     // Some room to grow into: pushing to exact contact takes forever. The denser the packing, the less room there is; it shrinks until
     // the sweeps get somewhere.
-    double growth = std::clamp(std::cbrt(densest / fraction_), 1 + leastGrowth, 1 + largestGrowth);
+    double growth = std::clamp(portable::cbrt(densest / fraction_), 1 + leastGrowth, 1 + largestGrowth);
     double bestDepth = std::numeric_limits<double>::infinity();
     listPairs();
     for (int number = 0, lastGain = 0; number < mostSweeps; ++number) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/portable_math.h"
+
 namespace tsubu::sim {
 
 namespace {
@@ -61,7 +63,7 @@ double meanCubeOf(const NormalRadius& d) {
   double moment = 0, weight = 0;
   for (int i = 0; i <= intervals; ++i) {
     const double r = a + (b - a) * i / intervals, z = (r - d.mean) / d.deviation;
-    const double w = (i == 0 || i == intervals ? 1 : i % 2 ? 4 : 2) * std::exp(-z * z / 2);
+    const double w = (i == 0 || i == intervals ? 1 : i % 2 ? 4 : 2) * portable::exp(-z * z / 2);
     moment += w * r * r * r;
     weight += w;
   }

@@ -1,6 +1,6 @@
 #pragma once
 // The bench on which contacts are worked: a chunk of them, gathered from the grains' rows into columns that fit the first-level
-// cache, computed as vectors, and scattered back. Three small loops beat one long one (docs/performance.md).
+// cache, computed as vectors, and scattered back. Several small loops beat one long one (docs/performance.md).
 
 #include <cstdint>
 

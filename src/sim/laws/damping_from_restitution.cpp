@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/portable_math.h"
+
 namespace tsubu::sim {
 
 namespace {
@@ -15,20 +17,20 @@ double exponentWithoutTension(double zeta) {
   const double w2 = 1 - zeta * zeta;
   if (std::abs(w2) < 1e-10) return 2;
   const double w = std::sqrt(std::abs(w2));
-  if (zeta < 1) return zeta / w * (pi - std::atan2(2 * zeta * w, w2 - zeta * zeta));
-  return zeta / w * std::log((zeta + w) * (zeta + w));  // (ζ+ω)/(ζ−ω) = (ζ+ω)², since (ζ+ω)(ζ−ω) = 1
+  if (zeta < 1) return zeta / w * (pi - portable::atan2(2 * zeta * w, w2 - zeta * zeta));
+  return zeta / w * portable::log((zeta + w) * (zeta + w));  // (ζ+ω)/(ζ−ω) = (ζ+ω)², since (ζ+ω)(ζ−ω) = 1
 }
 
 }  // namespace
 
 double restitutionOf(double zeta, bool tension) {
-  if (!tension) return std::exp(-exponentWithoutTension(zeta));
-  return zeta < 1 ? std::exp(-pi * zeta / std::sqrt(1 - zeta * zeta)) : 0.0;
+  if (!tension) return portable::exp(-exponentWithoutTension(zeta));
+  return zeta < 1 ? portable::exp(-pi * zeta / std::sqrt(1 - zeta * zeta)) : 0.0;
 }
 
 double dampingRatio(double restitution, bool tension) {
   if (restitution >= 1) return 0;
-  const double l = -std::log(restitution);
+  const double l = -portable::log(restitution);
   if (tension) return l / std::sqrt(pi * pi + l * l);
   double low = 0, high = 1;
   while (restitutionOf(high, false) > restitution) high *= 2;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "core/portable_math.h"
 #include "sim/walls/flat_regions.h"
 #include "sim/walls/mesh_edges.h"
 
@@ -333,15 +334,15 @@ class Builder {
       const Vec3& apex = vertexOf(result_.mesh, triangle(side.triangle), side.side);
       const Vec3 a = (vertexOf(result_.mesh, triangle(side.triangle), side.side + 1) - apex).normalized();
       const Vec3 b = (vertexOf(result_.mesh, triangle(side.triangle), side.side + 2) - apex).normalized();
-      const double half = 0.5 * std::atan2(a.cross(b).norm(), a.dot(b));
+      const double half = 0.5 * portable::atan2(a.cross(b).norm(), a.dot(b));
       angle += 2 * half;
-      if (const Vec3 middle = a + b; middle.norm() > 0) sum += 2 * std::sin(half) * middle.normalized();
+      if (const Vec3 middle = a + b; middle.norm() > 0) sum += 2 * portable::sin(half) * middle.normalized();
     }
     constexpr double pi = std::numbers::pi;
     if (angle < 0.9 * pi) return;
     const Face& face = result_.faces[faceOf(sector[0].triangle)];
     const bool all = angle > 2 * pi - 1e-4;  // every direction: the face goes all around
-    result_.sectors.push_back({face.plane.normal, normalizedOr(sum, face.u), all ? -2 : std::cos(angle / 2) - 1e-9});
+    result_.sectors.push_back({face.plane.normal, normalizedOr(sum, face.u), all ? -2 : portable::cos(angle / 2) - 1e-9});
   }
 
   /// A corner in the midst of a face, of triangles that overlap or leave a gap too narrow to count.
@@ -355,7 +356,7 @@ class Builder {
       bool all = true;
       for (int k = 0; k < 8 && all; ++k) {
         const double phi = (2 * k + 1) * std::numbers::pi / 8;
-        all = covers(face, point + 2 * result_.slack * (std::cos(phi) * face.u + std::sin(phi) * face.v));
+        all = covers(face, point + 2 * result_.slack * (portable::cos(phi) * face.u + portable::sin(phi) * face.v));
       }
       if (all) result_.sectors.push_back({face.plane.normal, face.u, -2});
     }

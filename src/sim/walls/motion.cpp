@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/portable_math.h"
 
 namespace tsubu::sim {
 
@@ -21,7 +22,7 @@ struct State {
 State turned(const Vec3& point, const Vec3& axis, double angle, double angularSpeed) {
   const Vec3 unit = axis.normalized();
   State state;
-  state.pose.rotation = Quat(Eigen::AngleAxisd(angle, unit));
+  state.pose.rotation = portable::turnBy(angle, unit);
   state.pose.translation = point - state.pose.rotation * point;
   state.twist = {Vec3::Zero(), angularSpeed * unit, point};
   return state;
@@ -39,14 +40,15 @@ State stateOf(const Rotation& m, double s) { return turned(m.point, m.axis, m.an
 State stateOf(const Oscillation& m, double s) {
   const double phase = tau * m.frequency * s + m.phase;
   State state;
-  state.pose.translation = (std::sin(phase) - std::sin(m.phase)) * m.amplitude;
-  state.twist.velocity = tau * m.frequency * std::cos(phase) * m.amplitude;
+  state.pose.translation = (portable::sin(phase) - portable::sin(m.phase)) * m.amplitude;
+  state.twist.velocity = tau * m.frequency * portable::cos(phase) * m.amplitude;
   return state;
 }
 
 State stateOf(const Rocking& m, double s) {
   const double phase = tau * m.frequency * s + m.phase;
-  return turned(m.point, m.axis, m.amplitude * (std::sin(phase) - std::sin(m.phase)), m.amplitude * tau * m.frequency * std::cos(phase));
+  return turned(m.point, m.axis, m.amplitude * (portable::sin(phase) - portable::sin(m.phase)),
+                m.amplitude * tau * m.frequency * portable::cos(phase));
 }
 
 State stateAt(const MotionPart& part, double t) {
