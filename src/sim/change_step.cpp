@@ -1,5 +1,7 @@
 // Steps of another length, in a run (docs/physics.md, I8).
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "core/error.h"
@@ -21,7 +23,8 @@ void Simulation::Impl::setTimeStep(double dt) {
   checkChangingSteps(model.integrator);
   if (!(dt > 0)) throw Error(ErrorKind::simulation, "The time step must be positive.");
   computeForces();
-  nextTimeStep = dt;
+  // A step that goes over to another length already, with its forces known, is finished first.
+  (changing ? stepAfterNext : nextTimeStep) = dt;
 }
 
 double Simulation::Impl::evaluationStep() const {
@@ -69,7 +72,7 @@ void Simulation::Impl::finishChange() {
   since = time();
   stepsSince = steps;
   model.timeStep = nextTimeStep;
-  nextTimeStep = 0;
+  nextTimeStep = std::exchange(stepAfterNext, 0.0);
   changing = false;
   stepsBetweenArrivals = 1;
   prepareArrivals();

@@ -97,9 +97,10 @@ class Simulation::Impl {
   std::uint64_t steps = 0;
   double since = 0;  ///< s: steps have had this length from here on
   std::uint64_t stepsSince = 0;
-  double nextTimeStep = 0;  ///< s: asked for; 0: none
-  bool changing = false;    ///< the present step goes over to it
-  StiffestMode stiffest;    ///< of the network, as it was found last
+  double nextTimeStep = 0;   ///< s: asked for; 0: none
+  bool changing = false;     ///< the present step goes over to it
+  double stepAfterNext = 0;  ///< s: asked for while it does; 0: none
+  StiffestMode stiffest;     ///< of the network, as it was found last
   std::uint64_t grainSteps = 0, threadSteps = 0;
   std::optional<ThreadChoice> choice;
   std::uint64_t stepsBetweenArrivals = 1;
