@@ -72,6 +72,7 @@ class Lammps:
     def __init__(self, name, program, write):
         self.name, self.program, self.write = name, program, write
         self.input = f"in.{name.lower()}"
+        self.skin_of = {}
         # -h of LIGGGHTS waits for input; its banner of an empty run names the version too.
         found = re.search(r"(?:LAMMPS \(|Version LIGGGHTS-PUBLIC )([^),]+)", call([program, "-log", "none"], ".").text)
         self.version = found[1] if found else "unknown"
@@ -84,20 +85,20 @@ class Lammps:
         return work
 
     # Shares of the smallest radius. With more grains than can be tried for long, what was best for thirty thousand.
-    SKINS, USUAL_SKIN, TRIED, TRIAL_STEPS = (0.1, 0.15, 0.2, 0.3, 0.4, 0.6), 0.2, 50_000, 300
+    SKINS, USUAL_SKIN, TRIED = (0.1, 0.2, 0.3, 0.45), 0.2, 50_000
 
     def prepare(self, directory, grains, work):
-        """With the skin that makes it fastest, of some that are tried."""
-        smallest, best = min(g.radius for g in grains), self.USUAL_SKIN
-        if len(grains) <= self.TRIED and work.steps > self.TRIAL_STEPS:
-            seconds = {share: [] for share in self.SKINS}
-            for share in 2 * self.SKINS:
-                self.write(directory, grains, replace(work, steps=self.TRIAL_STEPS), share * smallest)
-                seconds[share].append(self.run(directory, 1).seconds)
-            best = min(self.SKINS, key=lambda share: min(seconds[share]))
-            print(f"{work.name}, {self.name}: fastest with a skin of {best} of the smallest radius, {min(seconds[best]):.3f} s, at most "
-                  f"{max(map(min, seconds.values())):.3f} s", flush=True)
-        self.write(directory, grains, work, best * smallest)
+        """With the skin that makes it fastest, of some that are tried: over all steps, because grains may become faster."""
+        smallest, of = min(g.radius for g in grains), (work.law, work.friction, work.mesh, len(grains))
+        if of not in self.skin_of and len(grains) <= self.TRIED:
+            seconds = {}
+            for share in self.SKINS:
+                self.write(directory, grains, work, share * smallest)
+                seconds[share] = self.run(directory, 1).seconds
+            self.skin_of[of] = min(self.SKINS, key=seconds.get)
+            print(f"{work.name}, {self.name}: skins as shares of the smallest radius, " +
+                  ", ".join(f"{share}: {seconds[share]:.2f} s" for share in self.SKINS) + f"; {self.skin_of[of]} is taken", flush=True)
+        self.write(directory, grains, work, self.skin_of.get(of, self.USUAL_SKIN) * smallest)
 
     def run(self, directory, cores):
         command = [self.program, "-in", self.input, "-log", "none"]
