@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <locale>
 #include <sstream>
 #include <thread>
 
@@ -234,11 +235,21 @@ TEST_F(MeshFile, PolygonsAreCutWithoutLosingArea) {
   EXPECT_NEAR(area, 3, 1e-12);
 }
 
+struct DecimalComma : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+};
+
+// That of streams, which needs no installed locale; and that of the C library where there is one with decimal commas.
 TEST_F(MeshFile, TheLocaleDoesNotMatter) {
   const fs::path path = write("box.stl", asciiStl(box()));
   const std::string before = std::setlocale(LC_ALL, nullptr);
-  if (!std::setlocale(LC_ALL, "de_DE.UTF-8")) GTEST_SKIP() << "no locale with decimal commas is installed";
+  const std::locale streams = std::locale::global(std::locale(std::locale::classic(), new DecimalComma));
+  std::setlocale(LC_ALL, "de_DE.UTF-8");
+  std::ostringstream number;
+  number << 1.5;
+  EXPECT_EQ(number.str(), "1,5");
   expectBox(path);
+  std::locale::global(streams);
   std::setlocale(LC_ALL, before.c_str());
 }
 
